@@ -43,8 +43,8 @@ use mechanics::system::{Model, Observation};
 use mechanics::vector::{Matrix, Vector};
 use numerics::scalar::{Dual, Number, Real};
 use wheelrail::contact::{
-    ContactLaw, ContactPair, ContactPatch, ContactTable, FindPatches, PatchForces, Side, WheelMotion,
-    WheelPose, stored_energy,
+    ContactLaw, ContactPair, ContactPatch, ContactTable, FindPatches, PatchForces, Side, StripLoads,
+    WheelMotion, WheelPose, stored_energy,
 };
 use wheelrail::hertz::Material;
 use wheelrail::track::{Line, RailLines, TrackSection};
@@ -66,24 +66,24 @@ pub enum Search {
 
 impl FindPatches for Search {
     #[inline(always)]
-    fn search<S: Real>(&self, pose: &WheelPose<S>, take: impl FnMut(ContactPatch<S>)) {
+    fn find<S: Real>(&self, pose: &WheelPose<S>, take: impl FnMut(ContactPatch<S>, Option<&StripLoads<S>>)) {
         match self {
-            Self::Exact(pair) => pair.search(pose, take),
-            Self::Table(table) => table.search(pose, take),
+            Self::Exact(pair) => pair.find(pose, take),
+            Self::Table(table) => table.find(pose, take),
         }
     }
 
     #[inline(always)]
-    fn search_both<S: Real, T: Real>(
+    fn find_both<S: Real, T: Real>(
         &self,
         pose: &WheelPose<S>,
         other: &WheelPose<T>,
-        take: impl FnMut(ContactPatch<S>),
+        take: impl FnMut(ContactPatch<S>, Option<&StripLoads<S>>),
         also: impl FnMut(ContactPatch<T>),
     ) {
         match self {
-            Self::Exact(pair) => pair.search_both(pose, other, take, also),
-            Self::Table(table) => table.search_both(pose, other, take, also),
+            Self::Exact(pair) => pair.find_both(pose, other, take, also),
+            Self::Table(table) => table.find_both(pose, other, take, also),
         }
     }
 

@@ -11,12 +11,10 @@
 //! Each wheel finds its own height: that at which the vertical force, with its creep forces' part, is the
 //! load.
 
-use std::f64::consts::PI;
-
 use quantity::length_hint;
 use thiserror::Error;
 
-use crate::contact::{ContactLaw, ContactPair, Side, WheelMotion};
+use crate::contact::{ContactLaw, ContactPair, Side, StripLoads, WheelMotion};
 use crate::wheelset::RigidWheelset;
 
 /// Deepest rigid overlap at which a height is looked for, m. Hertz's theory ends long before.
@@ -106,10 +104,13 @@ pub struct LoadedPatch {
     pub creepage: [f64; 2],
     /// Spin, 1/m.
     pub spin: f64,
-    /// Semi-axes of the whole ellipse along and across the rolling direction, m.
+    /// Semi-axes of the whole ellipse along and across the rolling direction, m; on strips those of the
+    /// ellipse with the same load.
     pub axes: [f64; 2],
-    /// Greatest pressure of the whole ellipse, Pa.
+    /// Greatest pressure of the whole ellipse, or on its strips, Pa.
     pub greatest_pressure: f64,
+    /// Loads on the strips, `across` to the right; none of an ellipse.
+    pub strips: Option<StripLoads<f64>>,
 }
 
 /// A loaded wheel.
@@ -320,7 +321,8 @@ impl RigidWheelset {
             angular_velocity: axle.map(|part| -attitude.pitch_rate * part),
         };
         let (mut patches, mut most, mut profile) = (Vec::new(), 0.0, None);
-        let total = law.on_wheel(&self.pairs()[index], side, &pose, &motion, |patch, forces| {
+        let pair = &self.pairs()[index];
+        let total = law.on_wheel_by_strips(pair, side, &pose, &motion, |patch, forces, strips| {
             let normal = patch.share * forces.normal;
             if normal > most {
                 (most, profile) = (normal, Some(patch.profile));
@@ -340,7 +342,11 @@ impl RigidWheelset {
                 creepage: [-forces.creepage.longitudinal, sign * forces.creepage.lateral],
                 spin: sign * forces.creepage.spin,
                 axes: [a, b],
-                greatest_pressure: 1.5 * forces.normal / (PI * a * b),
+                greatest_pressure: forces.greatest_pressure(strips),
+                strips: strips.map(|own| StripLoads {
+                    across: own.across.map(|y| -sign * y),
+                    ..*own
+                }),
             });
         });
         Pressed {

@@ -10,7 +10,7 @@
 
 use std::sync::Arc;
 
-use crate::contact::{ContactPair, RigidTouch, Side, VaryingRail, WheelPose};
+use crate::contact::{ContactPair, PatchForm, RigidTouch, Side, VaryingRail, WheelPose};
 use crate::hertz::Material;
 use crate::loaded::Seat;
 use crate::profile::{Profile, ProfileError, SlicedProfile, check_gauge};
@@ -130,6 +130,13 @@ impl RigidWheelset {
                 .transpose()
         };
         Ok([over(0)?, over(1)?])
+    }
+
+    /// Returns the same wheelset with patches of a form.
+    #[must_use]
+    pub fn with_patches(mut self, patch: PatchForm) -> Self {
+        self.pairs = self.pairs.map(|pair| pair.with_patches(patch));
+        self
     }
 
     /// Returns the pairs of wheel and rail, left and right.

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use car::{Drive, Parameters, ProfiledWheels, StartKind, Wheels};
 use rolling::track::RailSupport;
 use truck::{Wedge, WedgeKind};
-use wheelrail::contact::{ContactLaw, CreepLaw};
+use wheelrail::contact::{ContactLaw, CreepLaw, PatchForm};
 use wheelrail::creep::polach;
 use wheelrail::profile::Profile;
+use wheelrail::wheelset::RigidWheelset;
 
 use super::statistics::Rules;
 use super::{CarCase, couplers, friction, not_round, rails};
@@ -95,7 +96,7 @@ pub(crate) fn of_wheels(text: &CaseText, own: &ProfiledWheels, list: &mut Vec<St
 }
 
 /// Returns the assumption about the contacts of wheels on rails.
-pub(crate) fn of_contacts([law, right]: &[ContactLaw; 2], tables: bool) -> String {
+pub(crate) fn of_contacts([law, right]: &[ContactLaw; 2], tables: bool, geometry: &RigidWheelset) -> String {
     let friction = match law.friction == right.friction {
         true => friction::in_words(&law.friction),
         false => format!(
@@ -105,7 +106,11 @@ pub(crate) fn of_contacts([law, right]: &[ContactLaw; 2], tables: bool) -> Strin
         ),
     };
     format!(
-        "Wheels on rails: patches by overlap with Hertz's ellipses, {}{}.",
+        "Wheels on rails: patches by overlap {}, {}{}.",
+        match geometry.pairs()[0].patch_form() {
+            PatchForm::Ellipse => "with Hertz's ellipses",
+            PatchForm::Strips => "on strips of half-spaces",
+        },
         match law.creep {
             CreepLaw::Frictionless => "no creep forces".to_owned(),
             CreepLaw::Linear => "Kalker's linear creep without saturation".to_owned(),
@@ -208,7 +213,9 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     match &p.wheels {
         Wheels::OnRails(own) => {
             of_wheels(&case.text, own, &mut list);
-            list.push(of_contacts(&own.laws, own.tables));
+            if let Some(geometry) = own.geometry.first() {
+                list.push(of_contacts(&own.laws, own.tables, geometry));
+            }
         }
         Wheels::Linear { .. } => list.push(
             "Linear wheels: geometry and creep of small motions, no flange, no saturation: for stability \

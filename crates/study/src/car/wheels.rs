@@ -6,7 +6,9 @@ use std::sync::Arc;
 use car::{Parameters, ProfiledWheels, Wheels};
 use quantity::Kind as Measure;
 use wheelrail::conicity::LinearGeometry;
-use wheelrail::contact::{ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset, Side, WheelForm};
+use wheelrail::contact::{
+    ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset, PatchForm, Side, WheelForm,
+};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::friction::Friction;
@@ -49,6 +51,8 @@ const CREEPS: Names<Creep> = &[
     ("kalker", Creep::Kalker),
     ("frictionless", Creep::Frictionless),
 ];
+
+const PATCHES: Names<PatchForm> = &[("ellipse", PatchForm::Ellipse), ("strips", PatchForm::Strips)];
 
 /// Reads `[wheels]`; `sprung` tells whether rails give way. Returns what is doubtful.
 pub(crate) fn wheels(
@@ -141,6 +145,15 @@ pub(crate) fn wheels(
         let help = "leave out wheels.tables, or rails.over_distance";
         r.problem("wheels.tables", problem.label("the rails change").help(help));
     }
+    let mut patch = PatchForm::Ellipse;
+    let comment = "\"ellipse\" (Hertz's), or \"strips\": patches that are no ellipses, for their pressure \
+                   and where profiles conform; three to five times as slow";
+    r.choice("patch", PATCHES, &mut patch, comment);
+    if tables && patch == PatchForm::Strips {
+        let problem = Problem::new("tables of contacts hold ellipses");
+        let help = "leave out wheels.tables, or write wheels.patch = \"ellipse\"";
+        r.problem("wheels.patch", problem.label("strips need the search").help(help));
+    }
     let law = contact_law(r, sprung);
     let all = WheelKeys {
         named: all,
@@ -209,7 +222,7 @@ pub(crate) fn wheels(
         let radii = own.each_ref().map(|own| own.keys.radius);
         let on = rail_profiles.each_ref().map(|own| &**own);
         match RigidWheelset::new(wheels, radii, on, layout, STEEL) {
-            Ok(made) => geometry.push(Arc::new(made)),
+            Ok(made) => geometry.push(Arc::new(made.with_patches(patch))),
             Err(error) => {
                 let of_rail = matches!(error, ProfileError::Datum { .. });
                 let path = if of_rail {

@@ -389,7 +389,9 @@ fn assumptions(case: &VehicleCase) -> Vec<String> {
     });
     if let Some(on) = &description.on_track {
         of_wheels(&case.text, &on.wheels, &mut words);
-        words.push(of_contacts(&on.wheels.laws, on.wheels.tables));
+        if let Some(geometry) = on.wheels.geometry.first() {
+            words.push(of_contacts(&on.wheels.laws, on.wheels.tables, geometry));
+        }
         let sprung = "Each wheel has a piece of rail of its own on springs";
         words.push(of_support(on.support.as_ref(), sprung, description.gravity));
         let driven = description.bodies.get(on.driven.0 - 1);

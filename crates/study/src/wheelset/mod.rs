@@ -18,7 +18,7 @@ use rolling::rig::{Rig, RigError, RigStart, Setup, Wheels};
 use rolling::wheel::Search;
 use rolling::wheelset::WheelsetBody;
 use thiserror::Error;
-use wheelrail::contact::{ContactLaw, ContactTable, CreepLaw, WheelForm};
+use wheelrail::contact::{ContactLaw, ContactTable, CreepLaw, PatchForm, WheelForm};
 use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileError, SlicedProfile};
@@ -86,6 +86,8 @@ pub struct Wheelset {
     pub creep: CreepLaw,
     /// The search for contact.
     pub search: SearchMode,
+    /// What patches are taken for; tables hold ellipses.
+    pub patch: PatchForm,
     /// Its start on the track.
     pub start: RigStart,
     /// Duration of the run, s; none: to the end of the track.
@@ -329,6 +331,7 @@ fn setup(wheelset: &Wheelset, track: Track) -> Result<Setup, WheelsetError> {
         wheelset.material,
     )?;
     rigid.check_reach()?;
+    let rigid = rigid.with_patches(wheelset.patch);
     let lines = Arc::new(RailLines::new(track, rigid.rail_origins()));
     let over = rigid.rails_over(wheelset.rails_over.each_ref().map(Option::as_deref))?;
     let search = |index: usize| -> Result<Search, WheelsetError> {

@@ -8,7 +8,7 @@ use rolling::rig::RigStart;
 use rolling::wheelset::WheelsetBody;
 use study::track::TrackFile;
 use study::wheelset::{SearchMode, Wheelset};
-use wheelrail::contact::CreepLaw;
+use wheelrail::contact::{CreepLaw, PatchForm};
 use wheelrail::creep::polach;
 use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
@@ -48,6 +48,7 @@ pub fn wheelset(track: &str, speed: f64) -> Wheelset {
         friction: Friction::constant(0.4),
         creep: CreepLaw::Polach(polach::DRY),
         search: SearchMode::Search,
+        patch: PatchForm::Ellipse,
         start: RigStart {
             distance: 2.0,
             ..RigStart::default()

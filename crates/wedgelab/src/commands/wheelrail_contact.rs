@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use quantity::{Kind, Quantity, System as Units};
 use serde_json::json;
-use wheelrail::contact::{ContactLaw, CreepLaw, Side};
+use wheelrail::contact::{ContactLaw, CreepLaw, PatchForm, Side};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::friction::Friction;
@@ -113,6 +113,9 @@ pub struct Arguments {
     /// Creep law
     #[arg(long, value_name = "LAW", value_enum, default_value_t = Creep::Polach)]
     creep: Creep,
+    /// Contact patches: Hertz's ellipses, or strips. FASTSIM takes the strips of the patch then
+    #[arg(long, value_name = "FORM", value_enum, default_value_t = Form::Ellipse)]
+    patch: Form,
     /// Cells and strips of FASTSIM
     #[arg(
         long,
@@ -146,6 +149,30 @@ pub(super) enum Creep {
     Polach,
     /// Kalker's simplified theory
     Fastsim,
+}
+
+/// What contact patches are taken for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Form {
+    /// Hertz's ellipses
+    Ellipse,
+    /// Strips along the rolling direction: patches that are no ellipses
+    Strips,
+}
+
+impl Form {
+    pub(super) fn form(self) -> PatchForm {
+        match self {
+            Self::Ellipse => PatchForm::Ellipse,
+            Self::Strips => PatchForm::Strips,
+        }
+    }
+
+    /// Returns its name.
+    pub(super) fn name(self) -> String {
+        self.to_possible_value()
+            .map_or(String::new(), |value| value.get_name().to_owned())
+    }
 }
 
 fn of(text: &str, kind: Kind) -> Result<Quantity, String> {
@@ -202,7 +229,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         youngs_modulus: 2.0 * arguments.shear_modulus * (1.0 + arguments.poisson),
         poisson: arguments.poisson,
     };
-    let wheelset = read.rigid(material)?;
+    let wheelset = read.rigid(material)?.with_patches(arguments.patch.form());
     let radius = wheelset.nominal_radius();
     let cells = usize::from(arguments.cells);
     let law = ContactLaw {
@@ -274,6 +301,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         given.put("friction", law.friction.zones.tread);
         given.put("gauge_face_friction", law.friction.zones.gauge_face);
         given.put("creep", creep.map(|value| value.get_name().to_owned()));
+        given.put("patch", arguments.patch.name());
         given.put("cells", (arguments.creep == Creep::Fastsim).then_some(cells));
         given.add("shear_modulus", arguments.shear_modulus, units.modulus);
         given.put("poisson", arguments.poisson);

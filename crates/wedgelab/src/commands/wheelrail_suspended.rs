@@ -16,7 +16,7 @@ use wheelrail::creep::polach;
 use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 
-use super::wheelrail_contact::Creep;
+use super::wheelrail_contact::{Creep, Form};
 use super::wheelrail_pair::{DEVIATION, ProfiledPair, WheelRailPair, word, wrong};
 use crate::failure::Failure;
 
@@ -81,6 +81,9 @@ pub struct SuspendedArguments {
     /// Contact search: at each evaluation, or in tables made beforehand (faster on treads, not on flanges)
     #[arg(long, value_enum, default_value_t = How::Search)]
     search: How,
+    /// Contact patches: Hertz's ellipses, or strips, which need the search
+    #[arg(long, value_enum, default_value_t = Form::Ellipse)]
+    patch: Form,
 }
 
 /// Search for contact.
@@ -187,6 +190,7 @@ impl SuspendedArguments {
                 How::Search => SearchMode::Search,
                 How::Table => SearchMode::Table,
             },
+            patch: self.patch.form(),
             start: RigStart::default(),
             duration: None,
             interval: INTERVAL,
@@ -276,6 +280,7 @@ impl SuspendedArguments {
                 "contact",
                 search.map_or(String::new(), |value| value.get_name().to_owned()),
             ),
+            ("patch", self.patch.name()),
         ]
         .into_iter()
         .map(|(name, value)| (name.to_owned(), value))

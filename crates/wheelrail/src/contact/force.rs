@@ -10,15 +10,19 @@
 //!
 //! Forces act on the wheel. Gravitational stiffness comes out of the geometry; none is added.
 
+use std::f64::consts::PI;
+
 use numerics::scalar::{Dual, Real};
 
 use super::patch::ContactPatch;
 use super::pose::{Side, WheelPose};
 use super::search::FindPatches;
+use super::strips::StripLoads;
 use crate::creep::fastsim::StripGrid;
 use crate::creep::polach::Reduction;
 use crate::creep::{
     Coefficients, CreepForces, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins,
+    strips as on_strips,
 };
 use crate::friction::Friction;
 use crate::vector::{cross, dot};
@@ -77,6 +81,19 @@ pub struct PatchForces<S> {
     pub creep: CreepForces<S>,
 }
 
+impl PatchForces<f64> {
+    /// Returns the greatest pressure, Pa: that of Hertz's ellipse, or of the strips, whose lengths and
+    /// pressures grow with the cube root of the load as damping adds to it.
+    #[must_use]
+    pub fn greatest_pressure(&self, strips: Option<&StripLoads<f64>>) -> f64 {
+        let [a, b] = self.axes;
+        match strips {
+            None => 1.5 * self.normal / (PI * a * b),
+            Some(strips) => strips.greatest_pressure() * libm::cbrt(self.normal / self.elastic),
+        }
+    }
+}
+
 /// Forces on a wheel, in axes x forward, y to the left, z up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelForces<S> {
@@ -99,7 +116,7 @@ impl ContactLaw {
         &self,
         pair: &impl FindPatches,
         pose: &WheelPose<S>,
-        patch: &ContactPatch<S>,
+        (patch, strips): (&ContactPatch<S>, Option<&StripLoads<S>>),
         motion: &WheelMotion<S>,
     ) -> PatchForces<S> {
         let arm = arm(pose, patch);
@@ -132,8 +149,7 @@ impl ContactLaw {
                 creep: CreepForces::none(),
             };
         }
-        let root = libm::cbrt(load.value());
-        let root = load.chain(root, root / (3.0 * load.value()));
+        let root = cube_root(load);
         let axes = patch.ellipse.axes.map(|axis| axis * root);
         let material = pair.material();
         let loaded = || Patch {
@@ -154,7 +170,13 @@ impl ContactLaw {
             CreepLaw::Linear => linear::forces(&loaded(), &ahead),
             CreepLaw::ShenHedrickElkins => shen_hedrick_elkins::forces(&loaded(), &ahead),
             CreepLaw::Polach(reduction) => polach::forces(&loaded(), &ahead, reduction),
-            CreepLaw::Fastsim(grid) => fastsim::forces(&loaded(), &ahead, grid),
+            CreepLaw::Fastsim(grid) => match strips {
+                None => fastsim::forces(&loaded(), &ahead, grid),
+                Some(strips) => {
+                    let scale = root / cube_root(elastic);
+                    on_strips::forces(&loaded(), &ahead, strips, scale, grid.cells)
+                }
+            },
         };
         creep.spin_moment = creep.spin_moment * sense;
         PatchForces {
@@ -176,9 +198,22 @@ impl ContactLaw {
         side: Side,
         pose: &WheelPose<S>,
         motion: &WheelMotion<S>,
-        see: impl FnMut(&ContactPatch<S>, &PatchForces<S>),
+        mut see: impl FnMut(&ContactPatch<S>, &PatchForces<S>),
     ) -> WheelForces<S> {
-        self.of_patches(pair, side, (pose, motion), |take| pair.search(pose, take), see)
+        self.on_wheel_by_strips(pair, side, pose, motion, |patch, forces, _| see(patch, forces))
+    }
+
+    /// Returns the same; `see` also gets the loads on the strips of a patch that is no ellipse.
+    #[inline(always)]
+    pub fn on_wheel_by_strips<S: Real>(
+        &self,
+        pair: &impl FindPatches,
+        side: Side,
+        pose: &WheelPose<S>,
+        motion: &WheelMotion<S>,
+        see: impl FnMut(&ContactPatch<S>, &PatchForces<S>, Option<&StripLoads<S>>),
+    ) -> WheelForces<S> {
+        self.of_patches(pair, side, (pose, motion), |take| pair.find(pose, take), see)
     }
 
     /// Returns the forces on the wheel, and the rate at which the energy in its contacts grows (W) while the
@@ -202,13 +237,13 @@ impl ContactLaw {
             (pose, motion),
             |take| match size_of::<S>() == size_of::<f64>() {
                 // Without derivatives the patches that move serve alone.
-                true => pair.search(moving, |patch| {
+                true => pair.find(moving, |patch, strips| {
                     rate += energy(&patch).derivative[0];
-                    take(patch.lifted());
+                    take(patch.lifted(), strips.map(StripLoads::lifted).as_ref());
                 }),
-                false => pair.search_both(pose, moving, take, |patch| rate += energy(&patch).derivative[0]),
+                false => pair.find_both(pose, moving, take, |patch| rate += energy(&patch).derivative[0]),
             },
-            |_, _| (),
+            |_, _, _| (),
         );
         (forces, rate)
     }
@@ -219,8 +254,8 @@ impl ContactLaw {
         pair: &impl FindPatches,
         side: Side,
         (pose, motion): (&WheelPose<S>, &WheelMotion<S>),
-        search: impl FnOnce(&mut dyn FnMut(ContactPatch<S>)),
-        mut see: impl FnMut(&ContactPatch<S>, &PatchForces<S>),
+        search: impl FnOnce(&mut dyn FnMut(ContactPatch<S>, Option<&StripLoads<S>>)),
+        mut see: impl FnMut(&ContactPatch<S>, &PatchForces<S>, Option<&StripLoads<S>>),
     ) -> WheelForces<S> {
         let motion = WheelMotion {
             velocity: side.mirrored(motion.velocity),
@@ -229,8 +264,8 @@ impl ContactLaw {
         let zero = S::zero();
         let (mut force, mut moment, mut power) = ([zero; 3], [zero; 3], zero);
         let (mut damping, mut stored) = (zero, zero);
-        search(&mut |patch: ContactPatch<S>| {
-            let found = self.at_patch(pair, pose, &patch, &motion);
+        search(&mut |patch: ContactPatch<S>, strips: Option<&StripLoads<S>>| {
+            let found = self.at_patch(pair, pose, (&patch, strips), &motion);
             let (normal, across) = (patch.normal(), patch.across());
             let [x, y, spin] = [found.creep.x, found.creep.y, found.creep.spin_moment];
             let rolling = patch.climb.map(|_| patch.along());
@@ -255,7 +290,7 @@ impl ContactLaw {
             power += (longitudinal * x + lateral * y + turning * spin) * reference * patch.share * -1.0;
             damping += (found.normal - found.elastic) * found.rate * patch.share;
             stored += found.elastic * found.rate * patch.share;
-            see(&patch, &found);
+            see(&patch, &found, strips);
         });
         WheelForces {
             force: side.mirrored(force),
@@ -294,6 +329,13 @@ pub fn stored_energy(pair: &impl FindPatches, pose: &WheelPose<f64>) -> f64 {
 fn energy<S: Real>(patch: &ContactPatch<S>) -> S {
     let d = patch.approach;
     d * d * d.sqrt() * patch.ellipse.stiffness * patch.share * 0.4
+}
+
+/// Cube root of a positive number.
+#[inline(always)]
+pub(super) fn cube_root<S: Real>(of: S) -> S {
+    let root = libm::cbrt(of.value());
+    of.chain(root, root / (3.0 * of.value()))
 }
 
 /// Returns the vector from the wheel's center to a patch.

@@ -134,9 +134,13 @@ impl ContactPair {
                 take(patch);
             }
         };
-        match self.division(frame, plain, scan, interval.stations) {
+        match self.division(frame, plain, scan, interval.stations, JOINED) {
             None => give(left, right, S::from(1.0)),
-            Some((valley, joined)) => {
+            Some((valley, part)) => {
+                let joined = match part.value() > 0.0 {
+                    true => part * part * (part * -2.0 + 3.0),
+                    false => S::zero(),
+                };
                 if joined.value() > 0.0 {
                     give(left, right, joined);
                 }
@@ -147,14 +151,16 @@ impl ContactPair {
         }
     }
 
-    /// Returns the valley at which an interval is divided, and how far its parts are joined (less than 1);
-    /// nothing if it has no valley that divides it.
-    fn division<S: Real>(
+    /// Returns the valley at which an interval is divided, and its overlap as a share (less than 1) of that at
+    /// which it joins the parts wholly, which is the share `joined` of the smaller maximum; nothing if it has
+    /// no valley that divides it.
+    pub(super) fn division<S: Real>(
         &self,
         frame: &Frame<'_, S>,
         plain: &Frame<'_, f64>,
         scan: &Scan,
         [first, last]: [usize; 2],
+        joined: f64,
     ) -> Option<(S, S)> {
         let overlap = &scan.overlap;
         // Largest overlap from each station to the last one, as a station.
@@ -179,7 +185,7 @@ impl ContactPair {
             }
         }
         let (prominence, stations) = best?;
-        if prominence < 0.5 * (1.0 - JOINED) * overlap[stations[0]].min(overlap[stations[2]]) {
+        if prominence < 0.5 * (1.0 - joined) * overlap[stations[0]].min(overlap[stations[2]]) {
             return None;
         }
         let [(low, _), (valley, turns), (high, _)] = stations.map(|k| self.turning(plain, scan, k));
@@ -190,14 +196,10 @@ impl ContactPair {
         } else {
             tops[1]
         };
-        let part = bottom.overlap / (smaller * JOINED);
+        let part = bottom.overlap / (smaller * joined);
         if part.value() >= 1.0 {
             return None;
         }
-        let joined = match part.value() > 0.0 {
-            true => part * part * (part * -2.0 + 3.0),
-            false => S::zero(),
-        };
         let valley = match turns {
             true => {
                 let bend = self.along(plain, valley).overlap_slope.derivative[0];
@@ -205,7 +207,7 @@ impl ContactPair {
             }
             false => S::from(valley),
         };
-        Some((valley, joined))
+        Some((valley, part))
     }
 
     /// Returns the patch of an interval of the parameter.

@@ -200,6 +200,12 @@ impl<'r, S: Real> Frame<'r, S> {
 }
 
 impl<S: Real> Frame<'_, S> {
+    /// Returns the component of the axle's direction along the rail.
+    #[inline(always)]
+    pub fn axle_along(&self) -> S {
+        self.axle[0]
+    }
+
     /// Returns the rise of the rail along the track at y (m); none where its section does not change.
     #[inline(always)]
     pub fn climb(&self, y: S) -> Option<S> {

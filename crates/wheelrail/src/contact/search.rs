@@ -16,6 +16,7 @@ use super::ellipse::Ellipses;
 use super::patch::ContactPatch;
 use super::pose::{Frame, ProfileNode, WheelPose};
 use super::section::{RailSection, STATIONS, WheelSection};
+use super::strips::StripLoads;
 use super::turned::{TurnedWheel, WheelForm};
 use super::varying::{Stretch, VaryingRail};
 use crate::hertz::Material;
@@ -42,6 +43,17 @@ pub struct ContactPair {
     form: Option<WheelForm>,
     pub(super) rail: Rail,
     pub(super) ellipses: Ellipses,
+    patch: PatchForm,
+}
+
+/// What patches are taken for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PatchForm {
+    /// Hertz's ellipses.
+    #[default]
+    Ellipse,
+    /// Strips.
+    Strips,
 }
 
 /// The rail of a pair.
@@ -107,20 +119,26 @@ pub struct RigidTouch {
 
 /// The finder of the patches of a wheel on its rail: the search, or tables.
 pub trait FindPatches {
-    /// Gives each patch at a pose to `take`.
-    fn search<S: Real>(&self, pose: &WheelPose<S>, take: impl FnMut(ContactPatch<S>));
+    /// Gives each patch at a pose to `take`, with the loads on its strips if it is no ellipse.
+    fn find<S: Real>(&self, pose: &WheelPose<S>, take: impl FnMut(ContactPatch<S>, Option<&StripLoads<S>>));
 
     /// Gives each patch at a pose to `take`, and the same patches with other derivatives to `also`: both
     /// poses have the same values.
-    fn search_both<S: Real, T: Real>(
+    fn find_both<S: Real, T: Real>(
         &self,
         pose: &WheelPose<S>,
         other: &WheelPose<T>,
-        take: impl FnMut(ContactPatch<S>),
-        also: impl FnMut(ContactPatch<T>),
+        take: impl FnMut(ContactPatch<S>, Option<&StripLoads<S>>),
+        mut also: impl FnMut(ContactPatch<T>),
     ) {
-        self.search(pose, take);
-        self.search(other, also);
+        self.find(pose, take);
+        self.find(other, |patch, _| also(patch));
+    }
+
+    /// Gives each patch at a pose to `take`.
+    #[inline(always)]
+    fn search<S: Real>(&self, pose: &WheelPose<S>, mut take: impl FnMut(ContactPatch<S>)) {
+        self.find(pose, |patch, _| take(patch));
     }
 
     /// Returns the material.
@@ -129,22 +147,26 @@ pub trait FindPatches {
 
 impl FindPatches for ContactPair {
     /// The deepest area comes first.
-    fn search<S: Real>(&self, pose: &WheelPose<S>, mut take: impl FnMut(ContactPatch<S>)) {
+    fn find<S: Real>(
+        &self,
+        pose: &WheelPose<S>,
+        mut take: impl FnMut(ContactPatch<S>, Option<&StripLoads<S>>),
+    ) {
         let rail = self.rail.at(pose.along.value());
         let wheel = self.turned(pose.angle.value());
         let frame = Frame::new(pose, &wheel, &rail);
         let plain = frame.lifted::<f64>();
-        self.areas(&plain, |scan, interval| {
-            self.patches(&frame, &plain, scan, interval, &mut take);
+        self.areas(&plain, |scan, intervals| {
+            self.formed(&frame, &plain, scan, intervals, &mut take);
         });
     }
 
     /// One search serves both.
-    fn search_both<S: Real, T: Real>(
+    fn find_both<S: Real, T: Real>(
         &self,
         pose: &WheelPose<S>,
         other: &WheelPose<T>,
-        mut take: impl FnMut(ContactPatch<S>),
+        mut take: impl FnMut(ContactPatch<S>, Option<&StripLoads<S>>),
         mut also: impl FnMut(ContactPatch<T>),
     ) {
         let rail = self.rail.at(pose.along.value());
@@ -152,9 +174,9 @@ impl FindPatches for ContactPair {
         let frame = Frame::new(pose, &wheel, &rail);
         let beside = Frame::new(other, &wheel, &rail);
         let plain = frame.lifted::<f64>();
-        self.areas(&plain, |scan, interval| {
-            self.patches(&frame, &plain, scan, interval, &mut take);
-            self.patches(&beside, &plain, scan, interval, &mut also);
+        self.areas(&plain, |scan, intervals| {
+            self.formed(&frame, &plain, scan, intervals, &mut take);
+            self.formed(&beside, &plain, scan, intervals, &mut |patch, _| also(patch));
         });
     }
 
@@ -192,7 +214,23 @@ impl ContactPair {
             form: None,
             rail: Rail::Constant(Arc::new(RailSection::new(rail)?)),
             ellipses,
+            patch: PatchForm::default(),
         })
+    }
+
+    /// Returns the same wheel and rail with patches of a form.
+    #[must_use]
+    pub fn with_patches(&self, patch: PatchForm) -> Self {
+        Self {
+            patch,
+            ..self.clone()
+        }
+    }
+
+    /// Returns what its patches are taken for.
+    #[must_use]
+    pub fn patch_form(&self) -> PatchForm {
+        self.patch
     }
 
     /// Returns the same wheel on a rail whose section changes along the track.
@@ -324,16 +362,38 @@ impl ContactPair {
         best
     }
 
+    /// Gives the patches of intervals to `take`.
+    #[inline(always)]
+    fn formed<S: Real>(
+        &self,
+        frame: &Frame<'_, S>,
+        plain: &Frame<'_, f64>,
+        scan: &Scan,
+        intervals: &[Option<Interval>; AREAS],
+        take: &mut impl FnMut(ContactPatch<S>, Option<&StripLoads<S>>),
+    ) {
+        match self.patch {
+            PatchForm::Ellipse => {
+                for interval in intervals.iter().flatten() {
+                    self.patches(frame, plain, scan, interval, &mut |patch| take(patch, None));
+                }
+            }
+            PatchForm::Strips => {
+                self.patches_on_strips(frame, plain, scan, intervals, |patch, strips| {
+                    take(patch, Some(strips));
+                });
+            }
+        }
+    }
+
     /// Gives the deepest areas of overlap to `take`, with the overlap at the stations.
-    fn areas(&self, plain: &Frame<'_, f64>, mut take: impl FnMut(&Scan, &Interval)) {
+    fn areas(&self, plain: &Frame<'_, f64>, take: impl FnOnce(&Scan, &[Option<Interval>; AREAS])) {
         let Some(mut scan) = self.scan(plain) else {
             return;
         };
         let mut intervals: [Option<Interval>; AREAS] = [None; AREAS];
         self.intervals(plain, &mut scan, |interval| keep(&mut intervals, interval));
-        for interval in intervals.into_iter().flatten() {
-            take(&scan, &interval);
-        }
+        take(&scan, &intervals);
     }
 
     /// Returns the overlap at the stations that lie over the rail, by its straight lines; minus infinity

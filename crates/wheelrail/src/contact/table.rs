@@ -21,6 +21,7 @@ use numerics::scalar::Real;
 use super::patch::ContactPatch;
 use super::pose::{Frame, ProfileNode, WheelPose};
 use super::search::{ContactPair, FindPatches};
+use super::strips::StripLoads;
 use super::turned::{TurnedWheel, WheelForm};
 use crate::hertz::Material;
 use crate::profile::ProfileError;
@@ -219,7 +220,11 @@ fn sample(
 }
 
 impl FindPatches for ContactTable {
-    fn search<S: Real>(&self, pose: &WheelPose<S>, mut take: impl FnMut(ContactPatch<S>)) {
+    fn find<S: Real>(
+        &self,
+        pose: &WheelPose<S>,
+        mut take: impl FnMut(ContactPatch<S>, Option<&StripLoads<S>>),
+    ) {
         let [x, y, z] = pose.axle;
         // The lateral place of the lowest point of the tape circle: rolling about it moves no flange aside.
         let lateral = pose.center[0] + z * self.pair.nominal_radius();
@@ -227,7 +232,7 @@ impl FindPatches for ContactTable {
         let row = (z + INCLINATION) * ((ROWS - 1) as f64 / (2.0 * INCLINATION));
         let inside = |value: f64, count: usize| value >= 0.0 && value <= (count - 1) as f64;
         if !(inside(column.value(), COLUMNS) && inside(row.value(), ROWS) && y.value() > 0.0) {
-            return self.pair.search(pose, take);
+            return self.pair.find(pose, take);
         }
         let tangent = x / ((x * x - 1.0) * -1.0).sqrt();
         let grown = match self.pair.turned(pose.angle.value()) {
@@ -255,7 +260,7 @@ impl FindPatches for ContactTable {
             let curvatures = [rolling, curvature * cosine * cosine * cosine];
             // The wheel's point: the center's height less the radius, raised by the inclination of the axle.
             let down = pose.center[1] + profile * z - radius * y;
-            take(ContactPatch {
+            let patch = ContactPatch {
                 share,
                 place: [ahead, place, down],
                 slope,
@@ -267,7 +272,8 @@ impl FindPatches for ContactTable {
                 half_width: (depth * 2.0 / curvature).sqrt(),
                 curvatures,
                 ellipse: self.pair.ellipses.of(curvatures[0], curvatures[1]),
-            });
+            };
+            take(patch, None);
         }
     }
 

@@ -9,6 +9,7 @@ pub mod kalker;
 pub mod linear;
 pub mod polach;
 pub mod shen_hedrick_elkins;
+pub mod strips;
 
 use numerics::scalar::Real;
 

@@ -153,7 +153,7 @@ fn analytic_the_largest_overlap_is_that_of_the_whole_surface() {
 
 /// Compares the derivatives of all forces and moments by pose and velocities with central differences, each
 /// against the largest of its kind (force, moment) in its column.
-fn assert_derivatives(pair: &ContactPair, creep: CreepLaw, pose: [f64; 4], within: f64) {
+pub fn assert_derivatives(pair: &ContactPair, creep: CreepLaw, pose: [f64; 4], within: f64) {
     let law = law(creep);
     let at = values(pair, pose);
     let dual = std::array::from_fn(|i| Dual::<10>::variable(at[i], i));

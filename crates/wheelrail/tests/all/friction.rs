@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use numerics::scalar::Dual;
-use wheelrail::contact::{ContactLaw, CreepLaw, Side};
+use wheelrail::contact::{ContactLaw, CreepLaw, PatchForm, Side};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::friction::{DRY, Falling, Friction, Zones};
 use wheelrail::hertz::Material;
@@ -71,7 +71,7 @@ fn analytic_friction_by_angle_distance_and_slip() {
 
 /// A worn wheel on a worn high rail of a heavy-haul railway, pressed down by a load (N), with friction 0.35
 /// on the tread and 0.2 on the gauge face.
-fn pressed(load: f64) -> LoadedWheel {
+pub fn pressed(load: f64, form: PatchForm) -> LoadedWheel {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/worn");
     // y counts from the back of the flange. 70 mm from it z is zero, where the radius is measured.
     let options = ReadOptions {
@@ -91,7 +91,9 @@ fn pressed(load: f64) -> LoadedWheel {
         youngs_modulus: 2.0 * 82e9 * 1.28,
         poisson: 0.28,
     };
-    let wheelset = RigidWheelset::new([&wheel; 2], [0.444; 2], [&rail; 2], layout, material).unwrap();
+    let wheelset = RigidWheelset::new([&wheel; 2], [0.444; 2], [&rail; 2], layout, material)
+        .unwrap()
+        .with_patches(form);
     let law = ContactLaw {
         friction: Friction::by_zone(0.35, 0.2),
         damping: 0.0,
@@ -128,7 +130,7 @@ fn cross_code_worn_profiles_with_friction_by_zone() {
         ),
     ];
     for (load, patches, lateral) in references {
-        let found = pressed(load);
+        let found = pressed(load, PatchForm::Ellipse);
         let mut own: Vec<_> = found
             .patches
             .iter()

@@ -27,6 +27,7 @@ mod recordings;
 mod shape;
 mod spectrum;
 mod spirals;
+mod strips;
 mod track;
 mod validation_page;
 mod varying_rail;

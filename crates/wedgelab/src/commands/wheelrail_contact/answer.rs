@@ -93,6 +93,18 @@ impl AnswerUnits {
         entries.add("a", patch.axes[0], self.length);
         entries.add("b", patch.axes[1], self.length);
         entries.add("greatest_pressure", patch.greatest_pressure, self.pressure);
+        if let Some(strips) = &patch.strips {
+            let places = 0..strips.line.len();
+            let list = |of: &dyn Fn(usize) -> f64| places.clone().map(of).collect::<Vec<_>>();
+            let (length, pressure) = (self.length, self.pressure);
+            let mut own = Entries::default();
+            own.list("x", list(&|i| strips.along[i]), length);
+            own.list("y", list(&|i| strips.across[i]), length);
+            own.list("half_length", list(&|i| strips.half_length[i]), length);
+            own.list("pressure", list(&|i| strips.pressure(i)), pressure);
+            own.add("width", strips.width, length);
+            entries.put("strips", own.value());
+        }
         entries.value()
     }
 
@@ -110,6 +122,11 @@ impl AnswerUnits {
     /// Writes the table of patches and a sentence on each wheel.
     pub fn write(&self, wheels: &[LoadedWheel; 2], out: &mut impl Write) -> io::Result<()> {
         let [place, size, force] = self.digits;
+        let mut patches = wheels.iter().flat_map(|wheel| &wheel.patches);
+        let pressure = match patches.any(|patch| patch.strips.is_some()) {
+            true => "pressure on strips",
+            false => "pressure of an ellipse",
+        };
         let mut table = TerminalTable::new(
             1,
             &[
@@ -126,7 +143,7 @@ impl AnswerUnits {
                 ("spin", self.spin.label),
                 ("a", self.length.label),
                 ("b", self.length.label),
-                ("pressure", self.pressure.label),
+                (pressure, self.pressure.label),
             ],
         );
         for (wheel, side) in wheels.iter().zip(["left", "right"]) {
@@ -208,6 +225,12 @@ impl Entries {
     pub fn add(&mut self, key: &str, si: f64, unit: Shown) {
         self.0
             .insert(format!("{key}_{}", unit.suffix), json!(unit.of(si)));
+    }
+
+    /// Appends values (SI) in a unit, which ends their key.
+    pub fn list(&mut self, key: &str, si: Vec<f64>, unit: Shown) {
+        let values: Vec<f64> = si.into_iter().map(|value| unit.of(value)).collect();
+        self.0.insert(format!("{key}_{}", unit.suffix), json!(values));
     }
 
     /// Returns the object.
