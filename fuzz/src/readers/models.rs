@@ -13,7 +13,7 @@ use study::half_truck::{HalfTruckCase, catalog};
 use study::track::TrackFile;
 use study::truck::{self, TruckCase};
 use study::wheelset::{SearchMode, Wheelset, WheelsetCase};
-use wheelrail::contact::CreepLaw;
+use wheelrail::contact::{CreepLaw, PatchForm};
 use wheelrail::creep::polach;
 use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
@@ -97,6 +97,7 @@ fn one_wheelset() -> Option<Wheelset> {
         damping: [2e4, 2e3],
         friction: Friction::constant(0.4),
         creep: CreepLaw::Polach(polach::DRY),
+        patch: PatchForm::Ellipse,
         search: SearchMode::Search,
         start: RigStart {
             distance: 2.0,
