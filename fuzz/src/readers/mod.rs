@@ -38,7 +38,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 42] = [
+pub const ALL: [Reader; 43] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
@@ -50,6 +50,7 @@ pub const ALL: [Reader; 42] = [
     trucks::ALIGNMENTS,
     trucks::PROFILES,
     studies::STUDIES,
+    studies::ROUTES,
     studies::MANIFESTS,
     studies::RECORDS,
     studies::POINTS,

@@ -9,6 +9,7 @@ use reproduction::sensitivity::{AXES, POINTS_FILE, PointOutcome, PointPlace, Poi
 use study::design::Study;
 use study::measures::{Measures, of_wedges};
 use study::records::{self, Record, Status};
+use study::route::Route;
 
 use super::cases::{messages, refused};
 use super::{ReadOutcome, Reader, corpus, nowhere, refused_as_written};
@@ -38,6 +39,29 @@ pub const STUDIES: Reader = Reader {
         b"count = 4503599627370496",
     ],
     read: study_file,
+};
+
+/// Route files.
+pub const ROUTES: Reader = Reader {
+    name: "routes",
+    about: "route files, and the cases of their runs",
+    corpus: corpus!("routes": "two_tracks.toml"),
+    dictionary: &[
+        b"[tracks.curve]",
+        b"[tracks.curve.set]",
+        b"[seasons.dry]",
+        b"[wedges]",
+        b"share = 1",
+        b"miles = 1e9",
+        b"kilometers = 1",
+        b"steps = 1000",
+        b"wheels = \"each\"",
+        b"coefficient = 1e-4",
+        b"hardness = \"2450 MPa\"",
+        b"case = \"car_tangent_empty\"",
+        b"track.segments = [{ tangent = \"600 ft\" }]",
+    ],
+    read: route_file,
 };
 
 /// The description in a study's folder.
@@ -125,6 +149,26 @@ fn study_file(input: &[u8]) -> ReadOutcome {
             "another study: of its own source"
         ),
         Err(error) => refused_as_written(&messages(&error)),
+    }
+    outcome
+}
+
+fn route_file(input: &[u8]) -> ReadOutcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return ReadOutcome::NO_TEXT;
+    };
+    let route = match Route::parse("route.toml", text, nowhere()) {
+        Ok(route) => route,
+        Err(error) => return refused(&error),
+    };
+    let runs = route.runs();
+    let shares: f64 = runs.iter().map(|own| own.share).sum();
+    assert!((shares - 1.0).abs() < 1e-9, "shares that sum to {shares}");
+    let mut outcome = ReadOutcome::ACCEPTED;
+    for run in runs.iter().take(4) {
+        if let Err(error) = route.case(run.of, &[]) {
+            outcome = outcome.or(refused(&error));
+        }
     }
     outcome
 }

@@ -194,6 +194,10 @@ pub const CARS: Reader = Reader {
         b"profile = \"cone_1:20\"",
         b"over_distance = [[\"0 ft\", \"60 mph\"]]",
         b"kind = \"coasting\"",
+        b"[wheels.axle_1.left]",
+        b"flats = [{ length = \"50 mm\", angle = \"90 deg\" }]",
+        b"out_of_round = [{ order = 3, amplitude = \"0.1 mm\" }]",
+        b"[damage]",
     ],
     read: car,
 };

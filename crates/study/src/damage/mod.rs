@@ -3,8 +3,8 @@
 //! Every row after the start has settled stands for the time since the row before it. Patches give the power of
 //! creep, normal force, pressure, friction and place; the laws are those of [`wheelrail::damage`].
 //!
-//! A wheel's damage is the mean round its tread, a rail's the mean along the track: the depth is the volume by
-//! the width of the place and by the circumference, or by the distance.
+//! A wheel's damage is the mean round its tread, a rail's the mean along the track: the depth, along the normal,
+//! is the volume by the width of the place on the profile and by the circumference, or by the distance.
 //!
 //! Limits: patches are Hertz's ellipses for their pressure; profiles do not wear within a run.
 
@@ -59,7 +59,7 @@ pub struct Damage {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SavedDamage {
     distance: f64,
-    sums: Vec<[f64; 3]>,
+    sums: Vec<[f64; 4]>,
 }
 
 impl Damage {
@@ -94,20 +94,24 @@ impl Damage {
         }
         let pressure = 1.5 * forces.normal / (PI * along * across);
         let power = seen.power();
+        let volume = time * self.laws.wear.rate(power, normal, pressure, seen.friction);
+        // Across the track the patch is as wide as it is seen from above.
+        let half = across * patch.cosine;
         let dose = Dose {
-            volume: time * self.laws.wear.rate(power, normal, pressure, seen.friction),
+            volume,
+            square: volume * patch.cosine,
             energy: time * power,
             fatigue: way.abs() * self.laws.fatigue.at(seen.wear_number),
         };
         // Fatigue is that of a place which patches pass: in the middle of a patch the whole of it.
         let passing = |own: &Surface| Dose {
-            fatigue: dose.fatigue * 4.0 * across / (3.0 * own.width()),
+            fatigue: dose.fatigue * 4.0 * half / (3.0 * own.width()),
             ..dose
         };
         let on_wheel = &mut self.wheels[wheelset][side].surface;
-        on_wheel.add(patch.profile, across, &passing(on_wheel));
+        on_wheel.add(patch.profile, half, &passing(on_wheel));
         let on_rail = &mut self.rails[side];
-        on_rail.add(patch.place[1], across, &passing(on_rail));
+        on_rail.add(patch.place[1], half, &passing(on_rail));
     }
 
     /// Returns its sums.
@@ -116,7 +120,9 @@ impl Damage {
         let places = self.surfaces().flat_map(|own| &own.places);
         SavedDamage {
             distance: self.distance,
-            sums: places.map(|own| [own.volume, own.energy, own.fatigue]).collect(),
+            sums: places
+                .map(|own| [own.volume, own.square, own.energy, own.fatigue])
+                .collect(),
         }
     }
 
@@ -133,9 +139,10 @@ impl Damage {
         }
         let wheels = self.wheels.iter_mut().flatten().map(|own| &mut own.surface);
         let places = wheels.chain(&mut self.rails).flat_map(|own| &mut own.places);
-        for (place, [volume, energy, fatigue]) in places.zip(&saved.sums) {
+        for (place, [volume, square, energy, fatigue]) in places.zip(&saved.sums) {
             *place = Dose {
                 volume: *volume,
+                square: *square,
                 energy: *energy,
                 fatigue: *fatigue,
             };
@@ -168,9 +175,10 @@ impl Damage {
 }
 
 impl OfWheel {
-    /// Returns the depth (m) that a place of the profile wears by a volume, m³.
+    /// Returns the depth (m) along the normal that a place of the profile wears by a volume (m³) times the cosine
+    /// of its contact angle.
     #[must_use]
-    pub fn depth(&self, volume: f64) -> f64 {
-        volume / (self.surface.width() * TAU * self.radius)
+    pub fn depth(&self, square: f64) -> f64 {
+        square / (self.surface.width() * TAU * self.radius)
     }
 }

@@ -97,7 +97,7 @@ struct OnProfile {
 /// fatigue is `by_fatigue` times that of the place's patches.
 fn over(surface: &Surface, [by_volume, by_fatigue]: [f64; 2], units: Units) -> OnProfile {
     let length = Kind::Length.from_si(units);
-    let depth = |dose: &Dose| dose.volume * by_volume;
+    let depth = |dose: &Dose| dose.square * by_volume;
     let each = || surface.middles().zip(&surface.places);
     let largest = each().fold([0.0, 0.0], |most: [f64; 2], (y, own)| {
         let found = depth(own);

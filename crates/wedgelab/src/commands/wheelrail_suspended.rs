@@ -10,7 +10,7 @@ use rolling::rig::RigStart;
 use rolling::wheelset::WheelsetBody;
 use study::track::TrackFile;
 use study::wheelset::{SearchMode, Wheelset};
-use wheelrail::contact::{CreepLaw, Flat, OutOfRound, WheelForm};
+use wheelrail::contact::{CreepLaw, Flat, Harmonic, OutOfRound, WheelForm};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::friction::Friction;
@@ -67,6 +67,9 @@ pub struct SuspendedArguments {
     /// Length of a fresh flat on both wheels, up at the start
     #[arg(long, value_name = "LENGTH", value_parser = of_length)]
     flat: Option<Quantity>,
+    /// Waves of the radius of both wheels: their number in a turn, and their amplitude; several are added
+    #[arg(long, value_name = "ORDER=LENGTH", value_parser = polygon)]
+    polygon: Vec<Polygon>,
     /// Creep law
     #[arg(long, value_name = "LAW", value_enum, default_value_t = Creep::Polach)]
     creep: Creep,
@@ -100,6 +103,25 @@ enum How {
 struct Named {
     si: f64,
     text: String,
+}
+
+/// Waves of a wheel's radius.
+#[derive(Clone, Debug)]
+struct Polygon {
+    order: u32,
+    amplitude: Quantity,
+}
+
+/// Reads `ORDER=LENGTH`.
+fn polygon(text: &str) -> Result<Polygon, String> {
+    let help = "write for example 3=\"0.1 mm\": three waves of 0.1 mm in a turn";
+    let (order, amplitude) = text.split_once('=').ok_or_else(|| help.to_owned())?;
+    let order = order
+        .trim()
+        .parse()
+        .map_err(|_| format!("`{order}` is no number of waves; {help}"))?;
+    let amplitude = of_length(amplitude.trim())?;
+    Ok(Polygon { order, amplitude })
 }
 
 fn of(text: &str, kind: Kind) -> Result<Quantity, String> {
@@ -200,18 +222,24 @@ impl SuspendedArguments {
     }
 
     /// Returns the given values, in words.
-    /// Returns the forms of wheels of these radii (m) with flats.
+    /// Returns the forms of wheels of these radii (m) with flats and waves.
     fn forms(&self, radii: [f64; 2]) -> Result<[Option<WheelForm>; 2], Failure> {
-        let Some(length) = &self.flat else {
+        if self.flat.is_none() && self.polygon.is_empty() {
             return Ok([None, None]);
-        };
+        }
         let form = |radius: f64| -> Result<Option<WheelForm>, Failure> {
-            let flat = Flat {
+            let flat = self.flat.iter().map(|length| Flat {
                 length: length.to_si(),
                 depth: None,
                 angle: PI,
-            };
-            let made = OutOfRound::new(radius, vec![flat], Vec::new()).map_err(|error| wrong(&error))?;
+            });
+            let waves = self.polygon.iter().map(|own| Harmonic {
+                order: own.order,
+                amplitude: own.amplitude.to_si(),
+                angle: 0.0,
+            });
+            let made =
+                OutOfRound::new(radius, flat.collect(), waves.collect()).map_err(|error| wrong(&error))?;
             Ok(Some(WheelForm::OutOfRound(Arc::new(made))))
         };
         let [left, right] = radii;
@@ -269,6 +297,17 @@ impl SuspendedArguments {
                 "flat",
                 self.flat.as_ref().map_or("none".to_owned(), Quantity::to_string),
             ),
+            ("polygon", {
+                let all = self
+                    .polygon
+                    .iter()
+                    .map(|own| format!("{} of {}", own.order, own.amplitude));
+                let all: Vec<String> = all.collect();
+                match all.is_empty() {
+                    true => "none".to_owned(),
+                    false => all.join(", "),
+                }
+            }),
             ("friction", {
                 let face = self.gauge_face_friction.filter(|face| *face != self.friction);
                 face.map_or(self.friction.to_string(), |face| {

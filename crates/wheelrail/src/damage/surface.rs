@@ -1,6 +1,6 @@
 //! What damage leaves on a profile: sums over places of equal width across it.
 //!
-//! A patch spreads what it does over its width 2 b as `3/4b (1 - (y/b)²)`, as Hertz's pressure does in strips
+//! Places are counted by y, across the track. A patch spreads what it does over its width 2 b in y as `3/4b (1 - (y/b)²)`, as Hertz's pressure does in strips
 //! along the rolling direction. Each place gets the integral over it, so that the sum over all is the whole,
 //! and what lies beyond the ends goes to the outermost places.
 
@@ -9,6 +9,9 @@
 pub struct Dose {
     /// Worn volume, m³.
     pub volume: f64,
+    /// Worn volume times the cosine of the contact angle, m³: the depth along the normal comes of it, on places
+    /// that are counted across the track.
+    pub square: f64,
     /// Energy that creep took, J.
     pub energy: f64,
     /// Damage by rolling contact fatigue times the distance over which it was done, m.
@@ -19,6 +22,7 @@ impl Dose {
     /// Adds a share of another one.
     pub fn add(&mut self, other: &Self, share: f64) {
         self.volume += share * other.volume;
+        self.square += share * other.square;
         self.energy += share * other.energy;
         self.fatigue += share * other.fatigue;
     }

@@ -51,6 +51,7 @@ fn analytic_a_surface_has_all_that_patches_do() {
     let mut surface = Surface::new([-0.05, 0.03], 0.5e-3);
     let dose = Dose {
         volume: 2e-9,
+        square: 1.5e-9,
         energy: 30.0,
         fatigue: 0.4,
     };
@@ -59,6 +60,7 @@ fn analytic_a_surface_has_all_that_patches_do() {
     let sum = surface.sum();
     for (found, expected) in [
         (sum.volume, dose.volume),
+        (sum.square, dose.square),
         (sum.energy, dose.energy),
         (sum.fatigue, dose.fatigue),
     ] {
