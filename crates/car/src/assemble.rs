@@ -32,6 +32,7 @@ use crate::error::BuildError;
 use crate::parameters::{Drive, Parameters, StartKind, Wheels};
 use crate::shaken::shaken;
 use crate::start::{Placement, at_rest, internal_states};
+use crate::torsion::{self, joint};
 
 /// Height of the couplers above the top of rail, at which the drive acts: 34.5 in, m.
 const COUPLERS: f64 = 34.5 * 0.0254;
@@ -49,8 +50,10 @@ const UPRIGHT: [f64; 3] = [FRAC_PI_2, 0.0, 0.0];
 pub struct Numbers {
     /// The ground.
     pub ground: usize,
-    /// The car body.
+    /// The car body, or its front half if it twists.
     pub body: usize,
+    /// Its rear half, if it twists.
+    pub rear_half: Option<usize>,
     /// The bolsters, front and rear.
     pub bolsters: [usize; 2],
     /// The side frames of each truck, left and right.
@@ -70,6 +73,17 @@ pub struct Numbers {
 }
 
 impl Numbers {
+    /// Returns the body on the front (0) or the rear (1) truck: both are one if it does not twist.
+    #[must_use]
+    pub fn body_at(&self, end: usize) -> usize {
+        [self.body, self.rear_half.unwrap_or(self.body)][end]
+    }
+
+    /// Returns the body, or its halves.
+    pub fn body_parts(&self) -> impl Iterator<Item = usize> {
+        [self.body].into_iter().chain(self.rear_half)
+    }
+
     /// Returns the body that a wheel (of a wheelset from the front; left 0, right 1) rolls on.
     pub(crate) fn under(&self, wheelset: usize, side: usize) -> usize {
         let under = self.rails.or(self.beds);
@@ -101,6 +115,8 @@ pub struct Car {
     pub(crate) wheels: WheelElements,
     /// Center of gravity of the body, and its axes, in the nominal layout.
     pub(crate) carried: Carried,
+    /// The same of its halves, or of the whole twice.
+    pub(crate) halves: [Carried; 2],
     pub(crate) truck_distance: f64,
     pub(crate) couplers: Couplers,
     /// Couplers with a force, leading and trailing.
@@ -203,6 +219,7 @@ impl Car {
             axes,
             wheels: nominal.wheels,
             carried,
+            halves: halves(parameters, &carried),
             truck_distance: parameters.truck_distance,
             couplers: parameters.couplers.clone(),
             mounted_couplers,
@@ -302,8 +319,17 @@ impl Nominal {
     ) -> Self {
         let mut bodies = vec![Body::prescribed("ground", Frame::fixed([0.0; 3], [0.0; 3]))];
         let body = bodies.len();
-        bodies.push(car_body(carried));
+        let halves = halves(parameters, carried);
+        bodies.push(car_body(&halves[0]));
         let (half, mut groups) = (0.5 * parameters.truck_distance, vec![(body, 2)]);
+        let rear_half = parameters.torsion.map(|_| {
+            bodies[body].name = "front_half_of_car_body".to_owned();
+            let mut rear = car_body(&halves[1]);
+            rear.name = "rear_half_of_car_body".to_owned();
+            groups.push((bodies.len(), 2));
+            bodies.push(rear);
+            bodies.len() - 1
+        });
         let centers = [half, -half].map(|x| [x, 0.0, 0.0]);
         let parts = [0, 1].map(|t| free(&parameters.trucks[t]));
         let mut mounts = [Mount::ALONE, Mount::ALONE];
@@ -315,7 +341,7 @@ impl Nominal {
             let own = truck::bodies(&parts[t], centers[t]);
             for (number, own) in truck::numbers(&parts[t]).into_iter().zip(own) {
                 if number == truck::CAR_BODY {
-                    mount.bodies[number] = body;
+                    mount.bodies[number] = [body, rear_half.unwrap_or(body)][t];
                     continue;
                 }
                 let place = own.frame.origin;
@@ -383,6 +409,11 @@ impl Nominal {
             carriers[w] = model.add_carrier(&format!("bearings_{}", w + 1), wheelset);
             mounts[w / 2].bodies[truck::WHEELSETS + w % 2] = carriers[w];
         }
+        if let (Some(torsion), Some(rear)) = (&parameters.torsion, rear_half) {
+            let joint = joint(carried, torsion, parameters.truck_distance, parameters.gravity);
+            let [a, b] = halves.each_ref().map(|own| body_marker(own, carried.center));
+            model.add(joint, (body, a), (rear, b));
+        }
         // The plates carry half of the body each, whatever its place.
         let trucks =
             [0, 1].map(|t| truck::mounted(&mut model, &with_half_body(&parts[t], carried), &mounts[t]));
@@ -404,12 +435,13 @@ impl Nominal {
                 speeds,
                 between,
             };
-            let at = body_marker(carried, [0.0, 0.0, COUPLERS]);
+            let at = body_marker(&halves[0], [0.0, 0.0, COUPLERS]);
             model.add(control, (body, at), (0, track));
         }
         let numbers = Numbers {
             ground: 0,
             body,
+            rear_half,
             bolsters: [0, 1].map(|t| mounts[t].bodies[truck::BOLSTER]),
             side_frames: [0, 1].map(|t| [0, 1].map(|k| mounts[t].bodies[truck::SIDE_FRAMES + k])),
             wedges: [0, 1].map(|t| {
@@ -455,9 +487,12 @@ impl Nominal {
             direction: couplers.ends[end].direction,
             course: None,
         };
-        let at = body_marker(carried, [place.pivot, 0.0, place.height]);
+        let at = body_marker(
+            &halves(parameters, carried)[end],
+            [place.pivot, 0.0, place.height],
+        );
         let track = Marker::new([0.0; 3], [0.0, 0.0, parameters.start.heading]);
-        let ends = ((self.numbers.body, at), (self.numbers.ground, track));
+        let ends = ((self.numbers.body_at(end), at), (self.numbers.ground, track));
         Some(MountedCoupler::add(
             &mut self.model,
             couplers,
@@ -537,7 +572,15 @@ fn with_half_body(own: &truck::Parameters, carried: &Carried) -> truck::Paramete
     own
 }
 
-/// Returns the body with its lading.
+/// Returns the halves of the body, front and rear, or twice the whole if it does not twist.
+fn halves(parameters: &Parameters, carried: &Carried) -> [Carried; 2] {
+    match parameters.torsion {
+        Some(_) => torsion::halves(carried),
+        None => [*carried; 2],
+    }
+}
+
+/// Returns the body with its lading, or a half of it.
 fn car_body(carried: &Carried) -> Body {
     let [x, y, z] = carried.inertia;
     let mut body = Body::free("car_body", carried.mass, [x, z, y], [0.0; 6]);

@@ -98,6 +98,19 @@ impl Pose {
         }
     }
 
+    /// Returns the pose in the middle of this one and another, which is turned by little.
+    pub fn between(&self, other: &Self) -> Self {
+        let column = |k: usize| -> Vector<f64> { self.rotation.column(k) + other.rotation.column(k) };
+        let unit = |own: Vector<f64>| -> Vector<f64> { own.scale(1.0 / own.dot::<f64, f64>(own).sqrt()) };
+        let x = unit(column(0));
+        let z = unit(x.cross(column(1)));
+        let y: Vector<f64> = z.cross(x);
+        Self {
+            place: (self.place + other.place).scale(0.5),
+            rotation: Matrix([0, 1, 2].map(|row| [x.0[row], y.0[row], z.0[row]])),
+        }
+    }
+
     /// Returns the pose that leads from `base` to this one.
     pub fn before(&self, base: &Self) -> Self {
         Self {

@@ -399,7 +399,7 @@ impl Car {
     #[must_use]
     pub fn coupler(&self, seen: &Observation, end: usize) -> Option<CouplerLoads> {
         let own = self.mounted_couplers[end].as_ref()?;
-        let body = &seen.bodies[self.numbers.body];
+        let body = &seen.bodies[self.numbers.body_at(end)];
         let arm: Vector<f64> = body.rotation.apply(own.marker.origin);
         let pivot = body.origin + arm;
         let swing: Vector<f64> = body.angular_velocity.cross(arm);

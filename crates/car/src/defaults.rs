@@ -150,6 +150,7 @@ impl Parameters {
                 Lading::Loaded => vec![Mass::usual()],
                 Lading::Empty => Vec::new(),
             },
+            torsion: None,
             truck_distance: 486.0 * INCH,
             accelerometer_height: None,
             couplers: Couplers::default(),

@@ -14,7 +14,8 @@
 //! | the linear benchmark of textbooks | [`Parameters::tied`] |
 //! | what one sees: wheel forces, places on the track, accelerations, trucks | [`Loads`] |
 //!
-//! Not in the model: flexible bodies, braking; draft gears of couplers, whose forces are given.
+//! Not in the model: flexible bodies but for one twist of the car body ([`Torsion`]), braking; draft gears of
+//! couplers, whose forces are given.
 //!
 //! ```
 //! use car::{Car, Parameters};
@@ -57,6 +58,7 @@ mod shapes;
 mod start;
 mod statics;
 mod tipping;
+mod torsion;
 mod wheels_over_amplitude;
 
 pub use amplitude::{Neutral, OverAmplitude};
@@ -74,7 +76,8 @@ pub use linearize::{
 pub use loads::{AxleLoads, EndMotion, Loads, TRUCK_PARTS, WheelLoads, accelerometer, ratio};
 pub use motions::{BodyMotion, Motions, TruckMotion, WheelsetAxes};
 pub use parameters::{
-    ACCELEROMETER_HEIGHTS, Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, TRUCK_DISTANCES, Wheels,
+    ACCELEROMETER_HEIGHTS, Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, TRUCK_DISTANCES,
+    Torsion, Wheels,
 };
 pub use shapes::name_of;
 pub use statics::Statics;

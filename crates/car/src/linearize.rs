@@ -130,8 +130,9 @@ impl SteadyCar {
     /// Holds the car's body in its steady motion, so that each truck runs alone under a mass without end.
     pub fn hold_body(&mut self) {
         let system = &self.car.system;
-        let body = self.car.numbers.body;
-        self.held = (0..6).filter_map(|k| system.position_of(body, k)).collect();
+        let parts = self.car.numbers.body_parts();
+        let places = parts.flat_map(|body| (0..6).filter_map(move |k| system.position_of(body, k)));
+        self.held = places.collect();
     }
 
     /// Returns the car.

@@ -20,6 +20,7 @@ use truck::TruckFrame;
 use wheelrail::track::{Line, TrackSection};
 
 use crate::assemble::{Car, WheelElements, body_marker};
+use crate::body::Pose;
 use crate::coupler::CouplerLoads;
 
 /// Share of the static load below which a wheel has no ratio of forces.
@@ -151,8 +152,11 @@ pub struct Loads {
     pub wheels: [[WheelLoads; 2]; 4],
     /// The wheelsets from the front.
     pub axles: [AxleLoads; 4],
-    /// Roll, pitch (nose down), yaw of the body relative to the track, rad.
+    /// Roll, pitch (nose down), yaw of the body relative to the track, rad; of one that twists means of its
+    /// halves.
     pub body_angles: [f64; 3],
+    /// Roll of the body's front half against the rear one, rad; zero of a body that does not twist.
+    pub body_twist: f64,
     /// The body above front and rear truck.
     pub ends: [EndMotion; 2],
     /// The trucks, front and rear, in axes of the track at their bolsters.
@@ -170,10 +174,10 @@ impl Car {
     #[must_use]
     pub fn loads(&self, seen: &Observation, rates: &[f64]) -> Loads {
         let mut loads = Loads::default();
-        let body = &seen.bodies[self.numbers.body];
-        let section = self.section(body.center_of_gravity);
+        let body = self.body_pose(seen);
+        let section = self.section(body.place);
         loads.distance = section.distance;
-        [loads.speed, ..] = section.of(self.own(body.velocity).0);
+        [loads.speed, ..] = section.of(self.own(self.body_velocity(seen)).0);
         for (w, number) in self.numbers.wheelsets.into_iter().enumerate() {
             let state = &seen.bodies[number];
             let section = self.section(state.origin);
@@ -191,16 +195,16 @@ impl Car {
             loads.wheels[w] = self.wheels(w, seen, &section);
         }
         self.roll_rails(&mut loads);
-        let turned = self.body_rotation(body);
-        let axes = [0, 1, 2].map(|k| section.of(self.own(turned.column(k)).0));
+        let axes = [0, 1, 2].map(|k| section.of(self.own(body.rotation.column(k)).0));
         loads.body_angles = [
             libm::atan2(axes[1][2], axes[2][2]),
             libm::asin((-axes[0][2]).clamp(-1.0, 1.0)),
             libm::atan2(axes[0][1], axes[0][0]),
         ];
         for (t, end) in loads.ends.iter_mut().enumerate() {
-            *end = self.end(t, body, &turned, rates);
+            *end = self.end(t, seen, rates);
         }
+        loads.body_twist = self.body_twist(seen);
         loads.couplers = [0, 1].map(|end| self.coupler(seen, end));
         for (t, truck) in self.trucks.iter().enumerate() {
             let bolster = &seen.bodies[self.numbers.bolsters[t]];
@@ -257,13 +261,48 @@ impl Car {
         }
     }
 
-    /// Returns the rotation of the body from the nominal layout's axes forward, left, up to fixed axes.
-    #[must_use]
-    pub fn body_rotation(&self, body: &BodyState) -> Matrix<f64> {
-        self.axes_of(self.numbers.body, body)
+    /// Returns the center of gravity of the body, and its rotation from the nominal layout's axes forward,
+    /// left, up to fixed axes: of one that twists the means of its halves.
+    pub(crate) fn body_pose(&self, seen: &Observation) -> Pose {
+        let [front, rear] = [0, 1].map(|end| {
+            let number = self.numbers.body_at(end);
+            let own = &seen.bodies[number];
+            Pose {
+                place: own.center_of_gravity,
+                rotation: self.axes_of(number, own),
+            }
+        });
+        match self.numbers.rear_half {
+            None => front,
+            Some(_) => front.between(&rear),
+        }
     }
 
-    /// Returns the same of any body.
+    /// Returns the velocity of the body's center of gravity, fixed axes, m/s.
+    fn body_velocity(&self, seen: &Observation) -> Vector<f64> {
+        let [front, rear] = [0, 1].map(|end| seen.bodies[self.numbers.body_at(end)].velocity);
+        match self.numbers.rear_half {
+            None => front,
+            Some(_) => (front + rear).scale(0.5),
+        }
+    }
+
+    /// Returns the roll of the body's front half against the rear one, rad; zero of a rigid body.
+    fn body_twist(&self, seen: &Observation) -> f64 {
+        let [front, rear] = [0, 1].map(|end| {
+            let number = self.numbers.body_at(end);
+            self.axes_of(number, &seen.bodies[number])
+        });
+        match self.numbers.rear_half {
+            None => 0.0,
+            Some(_) => {
+                let Matrix(r): Matrix<f64> = rear.transpose().times(front);
+                libm::asin((0.5 * (r[2][1] - r[1][2])).clamp(-1.0, 1.0))
+            }
+        }
+    }
+
+    /// Returns the rotation of a body from the nominal layout's axes to fixed axes.
     fn axes_of(&self, number: usize, body: &BodyState) -> Matrix<f64> {
         let nominal = fixed(self.system.bodies()[number].frame.orientation);
         body.rotation.times(nominal.transpose())
@@ -353,22 +392,20 @@ impl Car {
         }
     }
 
-    fn end(&self, t: usize, body: &BodyState, turned: &Matrix<f64>, rates: &[f64]) -> EndMotion {
+    fn end(&self, t: usize, seen: &Observation, rates: &[f64]) -> EndMotion {
         let half = 0.5 * self.truck_distance;
+        let number = self.numbers.body_at(t);
+        let body = &seen.bodies[number];
+        let turned = self.axes_of(number, body);
         let arm_to = |height: f64| -> Vector<f64> {
             let nominal = [[half, -half][t], 0.0, height];
-            body.rotation.apply(body_marker(&self.carried, nominal).origin)
+            body.rotation.apply(body_marker(&self.halves[t], nominal).origin)
         };
         let place = body.origin + arm_to(self.plates[t]);
         let arm = arm_to(self.accelerometers[t]);
         let section = self.section(place);
         let [_, lateral, height] = section.of(self.arm(place, &section));
-        let shown = accelerometer(
-            (&self.system, self.gravity),
-            (self.numbers.body, body),
-            arm,
-            rates,
-        );
+        let shown = accelerometer((&self.system, self.gravity), (number, body), arm, rates);
         let [_, left, up] = [0, 1, 2].map(|k| turned.column(k).dot::<f64, f64>(shown));
         EndMotion {
             lateral,

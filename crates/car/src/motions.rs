@@ -13,7 +13,7 @@ use wheelrail::track::TrackSection;
 use crate::assemble::Car;
 use crate::body::angles;
 
-/// The body with its lading.
+/// The body with its lading; of one that twists the mean of its halves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyMotion {
     /// Displacement forward, left, up (m), and roll, pitch, yaw (rad).
@@ -58,12 +58,12 @@ impl Car {
     /// Returns the poses of the bodies at an observation of [`Car::system`].
     #[must_use]
     pub fn motions(&self, seen: &Observation) -> Motions {
-        let body = &seen.bodies[self.numbers.body];
-        let frame = self.frame_at(body.center_of_gravity);
+        let body = self.body_pose(seen);
+        let frame = self.frame_at(body.place);
         let in_frame =
             |place: Vector<f64>| -> Vector<f64> { frame.axes.apply_transposed(place - frame.origin) };
-        let [_, left, up] = in_frame(body.center_of_gravity).0;
-        let turned: Matrix<f64> = frame.axes.transpose().times(self.body_rotation(body));
+        let [_, left, up] = in_frame(body.place).0;
+        let turned: Matrix<f64> = frame.axes.transpose().times(body.rotation);
         let [roll, pitch, yaw] = angles(&turned);
         let [_, aside, height] = self.carried.center;
         let mut chord = Vector::zero();

@@ -15,6 +15,7 @@ use wheelrail::profile::{Profile, SlicedProfile};
 use wheelrail::track::Track;
 use wheelrail::wheelset::RigidWheelset;
 
+use crate::body::Carried;
 use crate::coupler::Couplers;
 use crate::error::InvalidParameter;
 
@@ -221,6 +222,15 @@ pub const TRUCK_DISTANCES: [f64; 2] = [1.0, 100.0];
 /// Heights at which a body can have accelerometers, m.
 pub const ACCELEROMETER_HEIGHTS: [f64; 2] = [0.0, 10.0];
 
+/// Twist of the body: two halves on a torsion spring about the longitudinal axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Torsion {
+    /// Stiffness of the body between the truck centers, N·m/rad.
+    pub stiffness: f64,
+    /// Damping as a share of the critical one of its free vibration.
+    pub damping: f64,
+}
+
 /// A car on a track.
 #[derive(Clone, Debug)]
 pub struct Parameters {
@@ -231,6 +241,8 @@ pub struct Parameters {
     pub body: RigidBody,
     /// Its load.
     pub lading: Vec<Mass>,
+    /// Twist of body and lading; none: they are rigid.
+    pub torsion: Option<Torsion>,
     /// From the center of one truck to that of the other, m.
     pub truck_distance: f64,
     /// Height of the accelerometers on the body above the truck centers, above the top of rail in the nominal
@@ -338,6 +350,13 @@ impl Parameters {
                     let what = format!("a moment of inertia of {} (kg·m²)", own.name);
                     return Err(InvalidParameter::new(&what, value, "zero or positive"));
                 }
+            }
+        }
+        if let Some(torsion) = &self.torsion {
+            positive("the torsional stiffness of the body (N·m/rad)", torsion.stiffness)?;
+            if !(torsion.damping >= 0.0 && torsion.damping.is_finite()) {
+                let what = "the damping of the body's twist";
+                return Err(InvalidParameter::new(what, torsion.damping, "zero or positive"));
             }
         }
         let [low, high] = TRUCK_DISTANCES;
@@ -458,6 +477,13 @@ impl Parameters {
         let height =
             |own: &truck::Parameters| own.car_body.as_ref().map_or(0.0, |car| car.center_plate.height);
         self.trucks.each_ref().map(height)
+    }
+
+    /// Returns the frequency of the free twist of body and lading, Hz; none of a rigid body.
+    #[must_use]
+    pub fn torsion_frequency(&self) -> Option<f64> {
+        let [inertia, ..] = Carried::new(self).inertia;
+        self.torsion.map(|own| own.frequency(inertia))
     }
 
     /// Returns whether a truck has wedges without mass or an empirical warp spring.

@@ -27,7 +27,7 @@ const PARTS: [&str; 4] = ["body", "bolsters", "side frames", "wheelsets"];
 #[must_use]
 pub fn name_of(car: &Car, model: &LinearModel, shape: &[Complex<f64>]) -> String {
     let numbers = &car.numbers;
-    let mut bodies = vec![(0, 2, numbers.body)];
+    let mut bodies: Vec<_> = numbers.body_parts().map(|body| (0, 2, body)).collect();
     for truck in 0..2 {
         bodies.push((1, truck, numbers.bolsters[truck]));
         bodies.extend(numbers.side_frames[truck].map(|body| (2, truck, body)));

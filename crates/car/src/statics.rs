@@ -37,7 +37,7 @@ impl Car {
             self.numbers.side_frames.concat(),
             self.numbers.wedges.concat(),
             self.numbers.wheelsets.to_vec(),
-            vec![self.numbers.body],
+            self.numbers.body_parts().collect(),
         ];
         let (mut mass, mut moment) = (0.0, 0.0);
         for number in on_wheels.concat() {
@@ -48,11 +48,12 @@ impl Car {
                 moment += body.mass * height(seen.bodies[number].center_of_gravity);
             }
         }
-        let body = &seen.bodies[self.numbers.body];
         let half = 0.5 * self.couplers.distance;
-        let coupler = |x: f64| {
-            let nominal = [x, 0.0, self.couplers.height];
-            let arm: Vector<f64> = body.rotation.apply(body_marker(&self.carried, nominal).origin);
+        let coupler = |end: usize| {
+            let body = &seen.bodies[self.numbers.body_at(end)];
+            let nominal = [[half, -half][end], 0.0, self.couplers.height];
+            let own = body_marker(&self.halves[end], nominal);
+            let arm: Vector<f64> = body.rotation.apply(own.origin);
             height(body.origin + arm)
         };
         Statics {
@@ -61,9 +62,9 @@ impl Car {
                 let section = self.section(seen.bodies[self.numbers.wheelsets[w]].origin);
                 self.wheels(w, seen, &section).map(|own| own.vertical)
             }),
-            body_height: height(body.center_of_gravity),
+            body_height: height(self.body_pose(seen).place),
             height: moment / mass,
-            couplers: [half, -half].map(coupler),
+            couplers: [0, 1].map(coupler),
             trucks: self.trucks.each_ref().map(|own| own.statics(seen)),
         }
     }

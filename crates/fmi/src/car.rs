@@ -46,13 +46,19 @@ impl Model for CarModel {
 /// Returns the car of a case under these settings; inputs can move its rails.
 ///
 /// # Errors
-/// The case makes no car, or has wedges without mass.
+/// The case makes no car, or has wedges without mass or a body that twists.
 pub fn plant(case: &CarCase, setting: Option<&Setting>) -> Result<Plant, Error> {
     let mut parameters = case.parameters.clone();
     if parameters.has_connections() {
         return Err(Error::new(
             "FMUs of cars have wedges with mass, and those of the case have none or an empirical warp \
              spring; take wedge bodies",
+        ));
+    }
+    if parameters.torsion.is_some() {
+        return Err(Error::new(
+            "FMUs of cars have rigid bodies, whose loads are inputs at one center of gravity; leave \
+             car.torsion_stiffness out",
         ));
     }
     parameters.movable_rails = true;

@@ -14,3 +14,4 @@ mod shaken;
 mod stability;
 mod starts;
 mod statics;
+mod torsion;

@@ -275,6 +275,9 @@ fn input_what_an_fmu_cannot_take_is_refused() {
     let massless = case(&format!("truck.wedge.kind = \"massless\"\n{TRACK}"));
     let error = Description::new(&Source::Car(Box::new(massless))).unwrap_err();
     assert!(error.to_string().contains("take wedge bodies"), "{error}");
+    let twisting = case(&format!("car.torsion_stiffness = \"1e8 lbf in\"\n{TRACK}"));
+    let error = Description::new(&Source::Car(Box::new(twisting))).unwrap_err();
+    assert!(error.to_string().contains("car.torsion_stiffness out"), "{error}");
 }
 
 /// Profiles and measured tables go into the resources, and what is made of these has the same token and

@@ -5,12 +5,12 @@
 //!
 //! ```text
 //! F_i = P_i - k_i d_i - c_i v_i
-//! M   = -Σ_i κ_i θ_i g_i - γ_i ω_i e_i,   θ_i = ½ (R_kj - R_jk),   g_i = ½ (tr R e_i - Σ_j R_ij e_j)
+//! M   = Σ_i (L_i - κ_i θ_i) g_i - γ_i ω_i e_i,   θ_i = ½ (R_kj - R_jk),   g_i = ½ (tr R e_i - Σ_j R_ij e_j)
 //! ```
 //!
 //! with (i, j, k) cyclic: θ are the small rotations (`sin` of the angle times its axis), `g_i · ω` their
-//! rates. The elastic part is the gradient of `½ Σ (k_i d_i² + κ_i θ_i²) - Σ P_i d_i` at any pose, so that
-//! the ledger closes; the powers lost are `c_i v_i²` and `γ_i ω_i²`. Units: m, N, s, rad.
+//! rates. The elastic part is the gradient of `½ Σ (k_i d_i² + κ_i θ_i²) - Σ (P_i d_i + L_i θ_i)` at any
+//! pose, so that the ledger closes; the powers lost are `c_i v_i²` and `γ_i ω_i²`. Units: m, N, s, rad.
 //!
 //! Defects: the moment about one axis is `κ sin φ cos φ`, 2 % less than κφ at 10°, and falls beyond 45°; axes
 //! do not couple. Remedy for long ways: a [`Strut`](super::Strut), for large angles none.
@@ -32,6 +32,8 @@ pub struct Bushing {
     pub stiffness: [f64; 3],
     /// Damping along x, y, z, N·s/m.
     pub damping: [f64; 3],
+    /// Moment on the body with marker A in the nominal layout, N·m.
+    pub rotational_load: [f64; 3],
     /// Stiffness about x, y, z, N·m/rad.
     pub rotational_stiffness: [f64; 3],
     /// Damping about x, y, z, N·m·s/rad.
@@ -54,7 +56,8 @@ impl Element for Bushing {
         let (velocity, spin) = (motion.velocity, motion.angular_velocity);
         let damped = by(self.damping, velocity);
         let turned = by(self.rotational_damping, spin);
-        let torques = by(self.rotational_stiffness, motion.small_rotations());
+        let given = Vector(self.rotational_load.map(S::from));
+        let torques = by(self.rotational_stiffness, motion.small_rotations()) - given;
         let r = &motion.rotation.0;
         let trace = r[0][0] + r[1][1] + r[2][2];
         let mut elastic = Vector::<S>::zero();
@@ -75,6 +78,7 @@ impl Element for Bushing {
         let (way, turn) = (motion.position, motion.small_rotations());
         let along = way.dot::<f64, f64>(by(self.stiffness, way));
         let about = turn.dot::<f64, f64>(by(self.rotational_stiffness, turn));
-        0.5 * (along + about) - way.dot::<f64, f64>(Vector(self.load))
+        let given = turn.dot::<f64, f64>(Vector(self.rotational_load));
+        0.5 * (along + about) - way.dot::<f64, f64>(Vector(self.load)) - given
     }
 }

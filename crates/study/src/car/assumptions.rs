@@ -201,6 +201,26 @@ pub(super) fn named(parameters: &Parameters) -> Vec<(String, &Wedge)> {
     wedge_faces::named(&[("front ", &front.wedges), ("rear ", &rear.wedges)])
 }
 
+/// What holds of a body that twists, and of the hysteresis of side bearings.
+fn of_body(parameters: &Parameters) -> Vec<String> {
+    let mut list = Vec::new();
+    if let Some(frequency) = parameters.torsion_frequency() {
+        list.push(format!(
+            "The car body is two rigid halves that twist about an axis through the center of gravity, freely \
+             at {frequency:.2} Hz; a joint of 100 Hz holds them in all else: no bending of a real body."
+        ));
+    }
+    let mut bodies = parameters.trucks.iter().filter_map(|own| own.car_body.as_ref());
+    if bodies.any(|own| own.side_bearings.kind.hysteresis().is_some()) {
+        list.push(
+            "Hysteresis of side bearings is a slider behind a spring, alike at any speed; friction on their \
+             faces takes the elastic force alone."
+                .to_owned(),
+        );
+    }
+    list
+}
+
 /// Returns the assumptions of a run.
 pub(super) fn of(case: &CarCase) -> Vec<String> {
     let p = &case.parameters;
@@ -229,6 +249,7 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     list.extend(wedge_faces::assumptions(&named(p)));
     list.extend(of_kinds(&wedges));
     list.extend(of_warp(p));
+    list.extend(of_body(p));
     list.push(of_drive(&p.drive, "the car body"));
     let start = match p.start.kind {
         StartKind::Equilibrium => {

@@ -17,6 +17,8 @@ use crate::reader::CaseReader;
 const FOOT: f64 = 0.3048;
 pub(super) const INCH: f64 = 0.0254;
 pub(super) const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// Frequencies of the free twist of a body beyond which it is doubtful, Hz.
+const TWISTS: [f64; 2] = [0.5, 40.0];
 /// Coils that rise or sink by less are not spoken of, m.
 const SMALL_RISE: f64 = 0.05 * INCH;
 /// The curve below whose radius no truck of this kind runs, m: 150 ft, the least that rules for the design of
@@ -47,6 +49,7 @@ pub(super) fn all(
     }
     let mut doubts = geometry::of_car(parameters);
     doubts.extend(height(parameters));
+    doubts.extend(twist(parameters));
     doubts.extend(not_round::of_rows(parameters, simulation.output_interval));
     doubts.extend(couplers::checks(r, parameters, simulation.duration));
     doubts
@@ -192,6 +195,24 @@ fn height(parameters: &Parameters) -> Option<String> {
         -rise / INCH,
         travel / INCH
     ))
+}
+
+/// Returns the warning about a body that twists as none does.
+fn twist(parameters: &Parameters) -> Option<String> {
+    let frequency = parameters.torsion_frequency()?;
+    let [low, high] = TWISTS;
+    let what = format!("the body twists freely at {frequency:.2} Hz");
+    if frequency < low {
+        return Some(format!(
+            "{what}, softer than any car's: look at the unit of car.torsion_stiffness, which is per rad"
+        ));
+    }
+    (frequency > high).then(|| {
+        format!(
+            "{what}, as good as rigid, and near the joint of its halves, which gives way at 100 Hz: leave \
+             car.torsion_stiffness out"
+        )
+    })
 }
 
 /// Checks the car's start, and that the track is long and wide enough for it.

@@ -270,6 +270,12 @@ impl Table {
             own.climb(static_loads, &limits);
         }
         own.forces();
+        if car.numbers.rear_half.is_some() {
+            let text = "roll of the front half of the car body against the rear half";
+            own.add("body_twist", Kind::Angle, BODY, text, |seen| {
+                seen.loads.body_twist
+            });
+        }
         own.truck_accelerations();
         for truck in 1..=2 {
             for wedge in WEDGE_NAMES {
@@ -537,7 +543,7 @@ impl Table {
             ),
             (
                 "element_loss",
-                "energy lost in coils, stops and rails' supports since the start",
+                "energy lost in coils, stops, rails' supports and the twist of the body since the start",
                 places_of(system, |kind, element| {
                     !kind.is_work()
                         && !is_wheel(element)

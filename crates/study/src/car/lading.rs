@@ -1,6 +1,6 @@
 //! The sections of the car body and of what it carries.
 
-use car::{ACCELEROMETER_HEIGHTS, Couplers, Mass, Parameters, TRUCK_DISTANCES};
+use car::{ACCELEROMETER_HEIGHTS, Couplers, Mass, Parameters, TRUCK_DISTANCES, Torsion};
 use quantity::{Kind, STANDARD_GRAVITY};
 use truck::Lading;
 
@@ -171,6 +171,40 @@ fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>
     Some(list)
 }
 
+/// Reads the twist of the body.
+fn torsion(r: &mut CaseReader<'_>) -> Option<Torsion> {
+    const STIFFNESS: QuantityForm = (Kind::Moment, Range::Positive, Reach::Wide);
+    let mut stiffness = None;
+    let comment = "of the body against twist between the truck centers, per rad; left out: the body is rigid";
+    r.optional(
+        "torsion_stiffness",
+        STIFFNESS,
+        &mut stiffness,
+        "\"1e8 lbf in\"",
+        comment,
+    );
+    const USUAL: f64 = 0.02;
+    let mut damping = USUAL;
+    let comment = "of its twist, share of the critical one: a guess";
+    let reach = Reach::FromZero(0.1);
+    r.number(
+        "torsion_damping",
+        Range::NotNegative,
+        reach,
+        &mut damping,
+        comment,
+    );
+    // A completed case has the usual value.
+    if damping != USUAL && !r.gives("torsion_stiffness") {
+        let problem = Problem::new("`car.torsion_damping` has no effect: the body is rigid");
+        let help = "give car.torsion_stiffness, or leave both out";
+        r.problem_at(&r.path("torsion_damping"), problem.label("unused").help(help));
+    }
+    // One that was refused stays zero.
+    let stiffness = stiffness.filter(|own| *own > 0.0);
+    stiffness.map(|stiffness| Torsion { stiffness, damping })
+}
+
 /// The section of the body.
 pub(super) fn body(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section(
@@ -203,6 +237,7 @@ pub(super) fn body(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
         "of the accelerometers over the truck centers, above the top of rail; left out: that of the center \
          plate",
     );
+    parameters.torsion = torsion(r);
     let Couplers { height, distance, .. } = &mut parameters.couplers;
     let comment = "of the couplers above the top of rail in the nominal layout: a guess";
     r.quantity("coupler_height", LENGTH, height, comment);

@@ -88,7 +88,7 @@ fn of_branch(branch: &Branch, car: &Car, largest: f64) -> Option<ShownMotion> {
     let critical = branch.critical.as_ref()?;
     let numbers = &car.numbers;
     let frames = numbers.side_frames.iter().flatten();
-    let bodies = [numbers.body].into_iter().chain(numbers.bolsters);
+    let bodies = numbers.body_parts().chain(numbers.bolsters);
     let bodies = bodies.chain(frames.copied()).chain(numbers.wheelsets);
     let places = bodies.flat_map(|body| (0..3).filter_map(move |k| car.system.position_of(body, k)));
     let most = places.fold(0.0_f64, |most, place| {

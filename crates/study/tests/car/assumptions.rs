@@ -106,3 +106,21 @@ fn issue_047_assumptions_are_those_of_other_values() {
         assert!(!own.contains(gone), "{gone}: {own}");
     }
 }
+
+/// A body that twists and hysteresis of side bearings are told, and not told where there are none.
+#[test]
+fn input_twist_and_hysteresis_are_told() {
+    let plain = said("", None);
+    assert!(
+        !plain.contains("two rigid halves") && !plain.contains("Hysteresis"),
+        "{plain}"
+    );
+    let text = said(
+        "car.torsion_stiffness = \"1e8 lbf in\"\n\
+         truck.side_bearing = { kind = \"constant_contact\", hysteresis = \"600 lbf\" }",
+        None,
+    );
+    // 4 x 1e8 lbf in over 1.81e6 lbf in s^2.
+    assert!(text.contains("freely at 2.37 Hz"), "{text}");
+    assert!(text.contains("a slider behind a spring"), "{text}");
+}

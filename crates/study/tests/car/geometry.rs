@@ -195,6 +195,8 @@ fn input_doubtful_geometry_is_told() {
              in\"], inertia = [\"1e6 lbf in s^2\", \"1e7 lbf in s^2\", \"1e7 lbf in s^2\"] }] }",
             "the lading \"tank\" is 8.0 in above the top of rail",
         ),
+        ("car.torsion_stiffness=1e4 lbf in", "softer than any car's"),
+        ("car.torsion_stiffness=5e10 lbf in", "as good as rigid"),
         (
             "truck.side_bearing={ kind = \"constant_contact\", hysteresis = \"4000 lbf\" }",
             "is 67 % of its preload",
@@ -217,7 +219,9 @@ fn input_doubtful_geometry_is_told() {
         );
     }
     let bearing = "truck.side_bearing={ kind = \"constant_contact\", hysteresis = \"600 lbf\" }";
-    assert_eq!(read(&[bearing]).unwrap().doubts, Vec::<String>::new());
+    for set in [bearing, "car.torsion_stiffness=1e8 lbf in"] {
+        assert_eq!(read(&[set]).unwrap().doubts, Vec::<String>::new());
+    }
 }
 
 /// Wedge angles that no truck has are told of cars and of single wedges.

@@ -207,6 +207,17 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["there is no key `hysteresis` in `truck.side_bearing`"],
         ),
         (
+            "car.torsion_stiffness = \"0 lbf in\"",
+            &["`car.torsion_stiffness` is 0 lbf in; it must be greater than zero"],
+        ),
+        (
+            "car.torsion_damping = 0.05",
+            &[
+                "`car.torsion_damping` has no effect: the body is rigid",
+                "torsion_stiffness",
+            ],
+        ),
+        (
             "wheels.geometry = \"linear\"",
             &[
                 "linear wheels roll on rails that do not give way",

@@ -400,3 +400,13 @@ fn input_hysteresis_of_side_bearings_has_columns() {
     });
     assert_eq!(some, expected.as_flattened().as_flattened());
 }
+
+/// A body that twists has a column of its twist, a rigid one none.
+#[test]
+fn input_a_body_that_twists_has_a_column() {
+    let has = |lines: &str| {
+        let table = CarTable::new(&case(lines).parameters).unwrap();
+        table.columns().iter().any(|own| own.name == "body_twist")
+    };
+    assert!(!has("") && has("car.torsion_stiffness = \"1e8 lbf in\""));
+}

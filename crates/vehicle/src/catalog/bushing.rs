@@ -28,6 +28,7 @@ impl CatalogElement for Bushing {
             load: self.load,
             stiffness: self.stiffness,
             damping: self.damping,
+            rotational_load: [0.0; 3],
             rotational_stiffness: self.rotational_stiffness,
             rotational_damping: self.rotational_damping,
         };
