@@ -188,8 +188,8 @@ fn input_files_of_measuring_devices() {
 fn limits_a_car_runs_on_strips() {
     let lines = |patch: &str| {
         format!(
-            "[track]\nsegments = [{{ tangent = \"60 ft\" }}, {{ spiral = \"60 ft\" }}, {{ curve = \"100 ft\", \
-             degree = \"5 deg\" }}]\n[speed]\nvalue = \"30 mph\"\n[wheels]\npatch = \
+            "[track]\nsegments = [{{ tangent = \"60 ft\" }}, {{ spiral = \"60 ft\" }}, {{ curve = \
+             \"100 ft\", degree = \"5 deg\" }}]\n[speed]\nvalue = \"30 mph\"\n[wheels]\npatch = \
              \"{patch}\"\n[start]\nsettle = \"0 s\"\n[simulation]\nduration = \"3 s\"\n"
         )
     };
