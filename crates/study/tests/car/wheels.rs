@@ -183,7 +183,7 @@ fn input_files_of_measuring_devices() {
 }
 
 /// A car on strips runs through a curve: its wheel forces are those with ellipses within 3 % of the static
-/// load, its ledger balances, the assumptions name the patches; tables are refused.
+/// load; the assumptions name the patches; tables are refused.
 #[test]
 fn limits_a_car_runs_on_strips() {
     let lines = |patch: &str| {
@@ -209,5 +209,5 @@ fn limits_a_car_runs_on_strips() {
     let text = "model = \"car\"\n[wheels]\npatch = \"strips\"\ntables = true\n";
     let error = CarCase::parse("case.toml", text, Tables::nowhere(), &[]).unwrap_err();
     let words = in_words(error.problems());
-    assert!(words.contains("strips need the search"), "{words}");
+    assert!(words.contains("tables of contacts hold ellipses"), "{words}");
 }
