@@ -148,6 +148,8 @@ pub struct PatchState {
     pub place: Vector<f64>,
     /// The unit normal from the rail into the wheel, axes of marker B.
     pub normal: Vector<f64>,
+    /// Greatest pressure, Pa: of Hertz's ellipse, or on the strips of a patch that is none.
+    pub greatest_pressure: f64,
     /// What creep takes by the distance, N: creep forces times creepages, with the patch's share.
     pub wear_number: f64,
     /// The speed that creepages are relative to, m/s.
@@ -323,12 +325,12 @@ impl WheelOnRail {
     ) -> f64 {
         let placed = self.placed(motion, states);
         let section = &placed.section;
-        self.law.on_wheel(
+        self.law.on_wheel_by_strips(
             &self.search,
             self.side,
             &placed.pose,
             &placed.motion,
-            |patch, forces| {
+            |patch, forces, strips| {
                 let [x, y, z] = self.side.mirrored(patch.place);
                 let arm = section.fixed([x, y, z]);
                 let (own, slip) = (&forces.creep, &forces.creepage);
@@ -337,6 +339,7 @@ impl WheelOnRail {
                 let speed = libm::hypot(forward, self.law.slowest);
                 let sliding = [slip.longitudinal * speed, slip.lateral * speed];
                 see(PatchState {
+                    greatest_pressure: forces.greatest_pressure(strips),
                     wear_number: -lost * patch.share,
                     speed,
                     friction: self.law.friction.at(patch.slope, placed.pose.along, sliding),

@@ -13,7 +13,7 @@ mod summary;
 
 use rolling::wheel::PatchState;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use wheelrail::damage::{DamageFunction, Dose, Surface, WearMap};
 
 pub(crate) use keys::read;
@@ -92,7 +92,7 @@ impl Damage {
         if !(normal > 0.0 && along > 0.0 && across > 0.0) {
             return;
         }
-        let pressure = 1.5 * forces.normal / (PI * along * across);
+        let pressure = seen.greatest_pressure;
         let power = seen.power();
         let volume = time * self.laws.wear.rate(power, normal, pressure, seen.friction);
         // Across the track the patch is as wide as it is seen from above.

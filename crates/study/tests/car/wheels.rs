@@ -181,3 +181,33 @@ fn input_files_of_measuring_devices() {
         "{messages}"
     );
 }
+
+/// A car on strips runs through a curve: its wheel forces are those with ellipses within 3 % of the static
+/// load; the assumptions name the patches; tables are refused.
+#[test]
+fn limits_a_car_runs_on_strips() {
+    let lines = |patch: &str| {
+        format!(
+            "[track]\nsegments = [{{ tangent = \"60 ft\" }}, {{ spiral = \"60 ft\" }}, {{ curve = \
+             \"100 ft\", degree = \"5 deg\" }}]\n[speed]\nvalue = \"30 mph\"\n[wheels]\npatch = \
+             \"{patch}\"\n[start]\nsettle = \"0 s\"\n[simulation]\nduration = \"3 s\"\n"
+        )
+    };
+    let [ellipse, strips] = ["ellipse", "strips"].map(|patch| {
+        let case = read(&lines(patch));
+        let result = Run::new(&case).unwrap().finish(|_| ());
+        assert!(result.summary.complete, "{patch}: {:?}", result.summary.stopped);
+        result
+    });
+    for name in ["axle_1_left_vertical", "axle_1_right_vertical"] {
+        let [a, b] = [&ellipse, &strips].map(|result| result.column(name).unwrap());
+        let (a, b) = (a[a.len() - 1], b[b.len() - 1]);
+        assert!((a - b).abs() < 0.03 * a.abs(), "{name}: {a} {b}");
+    }
+    let words = strips.summary.assumptions.join("\n");
+    assert!(words.contains("on strips of half-spaces"), "{words}");
+    let text = "model = \"car\"\n[wheels]\npatch = \"strips\"\ntables = true\n";
+    let error = CarCase::parse("case.toml", text, Tables::nowhere(), &[]).unwrap_err();
+    let words = in_words(error.problems());
+    assert!(words.contains("tables of contacts hold ellipses"), "{words}");
+}

@@ -590,3 +590,35 @@ fn input_figures_and_clearance_are_told() {
     let (_, err) = run(&["aar_1b", "136re", "--gauge", "55.8 in"]);
     assert!(err.contains("warning: the flangeway clearance is 1.4"), "{err}");
 }
+
+/// Patches on strips: the answer has the strips' places, half lengths and pressures; the table says whose
+/// pressure it is.
+#[test]
+fn limits_pressure_of_an_ellipse_and_on_strips() {
+    let common = ["aar_1b", "136re", "--load", "140 kN"];
+    let [ellipse, strips] = ["ellipse", "strips"].map(|patch| {
+        let (_, text, _) = command(&[&common[..], &["--patch", patch]].concat());
+        let answer = answer(&[&common[..], &["--patch", patch, "--json"]].concat());
+        assert_eq!(answer["given"]["patch"], patch);
+        (text, answer)
+    });
+    assert!(ellipse.0.contains("pressure of an ellipse"), "{}", ellipse.0);
+    assert!(strips.0.contains("pressure on strips"), "{}", strips.0);
+    let patch = &strips.1["left"][0];
+    assert!(ellipse.1["left"][0]["strips"].is_null());
+    let list = |key: &str| -> Vec<f64> {
+        let values = patch["strips"][key].as_array().unwrap();
+        values.iter().map(|value| value.as_f64().unwrap()).collect()
+    };
+    let (half, pressure) = (list("half_length_mm"), list("pressure_mpa"));
+    let width = patch["strips"]["width_mm"].as_f64().unwrap();
+    let load: f64 = half
+        .iter()
+        .zip(&pressure)
+        .map(|(a, p)| 0.5 * std::f64::consts::PI * a * p * width)
+        .sum();
+    let normal = patch["normal_n"].as_f64().unwrap();
+    assert!((load / normal - 1.0).abs() < 2e-3, "{load} {normal}");
+    let greatest = pressure.iter().fold(0.0_f64, |most, own| most.max(*own));
+    assert!((greatest / patch["greatest_pressure_mpa"].as_f64().unwrap() - 1.0).abs() < 1e-9);
+}

@@ -151,9 +151,9 @@ impl ContactPair {
         }
     }
 
-    /// Returns the valley at which an interval is divided, and its overlap as a share (less than 1) of that at
-    /// which it joins the parts wholly, which is the share `joined` of the smaller maximum; nothing if it has
-    /// no valley that divides it.
+    /// Returns the valley at which an interval is divided, and its overlap as a share (less than 1) of
+    /// that at which it joins the parts wholly, which is the share `joined` of the smaller maximum;
+    /// nothing if it has no valley that divides it.
     pub(super) fn division<S: Real>(
         &self,
         frame: &Frame<'_, S>,

@@ -13,6 +13,8 @@ use wheelrail::wheelset::{Layout, RigidWheelset};
 mod benchmark;
 #[path = "en15302.rs"]
 mod en15302;
+#[path = "worn.rs"]
+mod worn;
 
 const SHEAR: f64 = 82e9;
 const POISSON: f64 = 0.28;
@@ -37,6 +39,7 @@ pub fn page() -> String {
         traction,
         spin,
         benchmark::manchester,
+        worn::worn,
         conicity,
         en15302::en15302,
     ] {

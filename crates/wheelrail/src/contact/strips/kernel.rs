@@ -1,7 +1,8 @@
 //! Displacement of a half-space under a strip of semi-elliptic pressure, by a table.
 //!
-//! A line along x with the pressure `√(1 - (x/a)²)` for |x| < a and a width dy moves the surface at a distance
-//! `t a` square to its middle by `G(t) dy / (π E*)` and bends it along x there by `-H(t) dy / (π E* a²)`:
+//! A line along x with the pressure `√(1 - (x/a)²)` for |x| < a and a width dy moves the surface at a
+//! distance `t a` square to its middle by `G(t) dy / (π E*)` and bends it along x there by `-H(t) dy /
+//! (π E* a²)`:
 //!
 //! ```text
 //! G(t) = ∫ √(1 - s²) / √(s² + t²) ds from -1 to 1 = 2 √(1 + t²) (K(m) - E(m)),   m = 1 / (1 + t²)

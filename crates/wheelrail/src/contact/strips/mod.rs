@@ -10,8 +10,8 @@
 //! rail and the wheel's circle in the plane of contact (e_x: the axle's component along the rail).
 //!
 //! An interval with a valley between two maxima is cut into two parts with strips of their own, which press
-//! each other down, as separate intervals do: wholly where the centers of their overlaps are up to 10 mm apart,
-//! from 20 mm on not at all (a choice; other programs have such distances, too). Where the
+//! each other down, as separate intervals do: wholly where the centers of their overlaps are up to 10 mm
+//! apart, from 20 mm on not at all (a choice; other programs have such distances, too). Where the
 //! valley has more than 0.45 of the smaller maximum, the interval as one part takes over (share c, the parts
 //! 1 - c), wholly at 0.9. So loads are continuous where patches merge and part; strips appear and vanish with
 //! no load.
@@ -25,7 +25,9 @@
 //! interval at once, which moves its strips and changes loads by up to 1 %; strips that lie ahead of each
 //! other (yaw) press each other as if they lay side by side.
 
+mod influence;
 mod kernel;
+mod rates;
 mod ratio;
 mod solve;
 
@@ -123,8 +125,8 @@ struct Laid<S> {
     mean_curvature: S,
 }
 
-/// An interval of overlap with its ends and, if a valley divides it, the place of that and the share with which
-/// it counts as one part.
+/// An interval of overlap with its ends and, if a valley divides it, the place of that and the share with
+/// which it counts as one part.
 #[derive(Clone, Copy)]
 struct Area<S> {
     ends: [S; 2],
@@ -229,7 +231,7 @@ impl ContactPair {
                 let Some(own) = self.laid(frame, ends, offset) else {
                     continue;
                 };
-                offset = offset + own.part.width * STRIPS as f64;
+                offset += own.part.width * STRIPS as f64;
                 let before = length.checked_sub(1).and_then(|last| chain[last].as_ref());
                 let apart = before.is_some_and(|before| (own.center - before.center).value() >= FAR);
                 if apart {
@@ -239,7 +241,7 @@ impl ContactPair {
                 chain[length] = Some(own);
                 length += 1;
             }
-            offset = offset + area.gap;
+            offset += area.gap;
         }
         self.solved(frame, &chain[..length], share, take);
     }

@@ -1,10 +1,10 @@
 //! The greatest pressure of an ellipse over its semi-axis along the rolling direction.
 //!
-//! `C = p0 / a = E* A f(g)` with the ratio g = b/a of the semi-axes across and along it, from Hertz's equations
-//! for the curvature along a: `f = (1 - g²) / (g (K - E))` for g < 1, with complete elliptic integrals of the
-//! parameter 1 - g², and `f = (g² - 1) / (g² E - K)` for g > 1, of 1 - 1/g². A circle has f = 4/π. ln f is a table
-//! over ln g with slopes, 1/16 apart (relative error below 1e-6), from g = 1/148 to 148; beyond, its end
-//! slopes go on.
+//! `C = p0 / a = E* A f(g)` with the ratio g = b/a of the semi-axes across and along it, from Hertz's
+//! equations for the curvature along a: `f = (1 - g²) / (g (K - E))` for g < 1, with complete elliptic
+//! integrals of the parameter 1 - g², and `f = (g² - 1) / (g² E - K)` for g > 1, of 1 - 1/g². A
+//! circle has f = 4/π. ln f is a table over ln g with slopes, 1/16 apart (relative error below 1e-6),
+//! from g = 1/148 to 148; beyond, its end slopes go on.
 
 use std::sync::LazyLock;
 

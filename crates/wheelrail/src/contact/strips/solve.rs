@@ -11,14 +11,16 @@
 //!
 //! where C is the greatest pressure of a strip over its half length. In contact both are those of the bodies:
 //! the overlap h_j, and the curvature `-2 A_j` of their gap. The second condition is met with the C of the
-//! strip itself in place of its neighbors': `C_j = 2 π E* A_j / W_j`, `W_j = Σ ΔJ_jk`. In an ellipse all C are
-//! the same, so that ellipses are found exactly but for the finite number of strips; wide patches tend to
+//! strip itself in place of its neighbors': `C_j = 2 π E* A_j / W_j`, `W_j = Σ ΔJ_jk`. In an ellipse all C
+//! are the same, so that ellipses are found exactly but for the finite number of strips; wide patches tend to
 //! plane strain, `C = E* A`.
 //!
 //! The sum W needs many strips where a patch is narrow. There C is that of the ellipse whose ratio of
-//! semi-axes across and along, g = b/a, is that of the part (from the variance of the a_k² over the places and
-//! from their mean): `C_j = E* A_j f(g)`, with `f = (1 - g²) / (g (K - E))` and its like for g > 1. Between g =
-//! 0.2 and 0.5 ln C passes from one to the other; in an ellipse they are equal.
+//! semi-axes across and along, g = b/a, is that of the part (from the variance of the a_k² over the places
+//! and from their mean): `C_j = E* A_j f(g)` (`ratio.rs`). Between g = 0.35 and 1 ln C passes from one to the
+//! other; in an ellipse they are equal. Both are taken from the lengths of the round before: two rounds, the
+//! first one from the ellipse of the depth and the half width of the overlap. So the loads of a round are
+//! unique.
 //!
 //! The first condition,
 //!
@@ -36,8 +38,9 @@ use std::f64::consts::PI;
 use numerics::scalar::Real;
 
 use super::super::search::AREAS;
-use super::kernel::{Influence, kernel};
-use super::ratio::{self, log_factor};
+use super::influence::{free, influences, moved};
+use super::kernel::Influence;
+use super::rates::Rates;
 
 /// Strips of a part.
 pub const STRIPS: usize = 16;
@@ -55,8 +58,6 @@ const JOINS: f64 = 1e-3;
 /// Least factor of a square in a step, and the square over the largest below which it is zero.
 const SHRINKS: f64 = 0.01;
 const VANISHES: f64 = 1e-9;
-/// Least variance of the squares of a part over the square of a strip's width.
-const LEAST_SPREAD: f64 = 1.0 / 12.0;
 
 /// Share with which parts press each other, from 0 (not) to 1.
 pub(super) type Couplings<S> = [[S; PARTS]; PARTS];
@@ -106,184 +107,6 @@ pub(super) struct Loads<S> {
     pub line: [S; STRIPS],
     /// Half length, m.
     pub half_length: [S; STRIPS],
-}
-
-/// Influence of a strip, I or J with its function G or H: differences over its edges.
-#[derive(Clone, Copy, Default)]
-struct Difference {
-    /// ΔI or ΔJ.
-    value: f64,
-    /// Δ(t G) or Δ(t H).
-    scaled: f64,
-    /// ΔG or ΔH, and the sum of G or H over the edges.
-    slope: f64,
-    sum: f64,
-}
-
-/// Pressures over half lengths, from squares of half lengths.
-struct Rates<const N: usize> {
-    /// C / E* of each strip, 1/m.
-    rates: [f64; N],
-    /// W of each strip, and its derivatives by the square of strip k.
-    bending: [f64; N],
-    bending_by: [[f64; N]; N],
-    /// Share of W in ln C of each part; slopes of ln C by ln g, and of ln g by the square, of each strip.
-    shares: [f64; PARTS],
-    by_ratio: [f64; N],
-    ratio_by: [f64; N],
-}
-
-impl<const N: usize> Rates<N> {
-    /// Returns them; `derived` says whether slopes are needed.
-    fn of(parts: &[Part<f64>], couplings: &Couplings<f64>, squares: &[f64; N], derived: bool) -> Self {
-        let mut own = Self {
-            rates: [0.0; N],
-            bending: [0.0; N],
-            bending_by: [[0.0; N]; N],
-            shares: [0.0; PARTS],
-            by_ratio: [0.0; N],
-            ratio_by: [0.0; N],
-        };
-        // A strip out of contact bends as one whose half length falls to zero.
-        for (bending, square) in own.bending.iter_mut().zip(squares) {
-            *bending = if *square > 0.0 { 0.0 } else { 2.0 * PI };
-        }
-        for p in 0..parts.len() {
-            let squares = &squares[p * STRIPS..(p + 1) * STRIPS];
-            influences(Influence::Bending, parts, p, squares, |q, j, m, difference, _| {
-                own.bending[j] += couplings[q][p] * difference.value;
-                if derived {
-                    let by = -couplings[q][p] * 0.5 / squares[m] * difference.scaled;
-                    own.bending_by[j][p * STRIPS + m] = by;
-                }
-            });
-        }
-        for (p, part) in parts.iter().enumerate() {
-            own.part(p, part, &squares[p * STRIPS..(p + 1) * STRIPS]);
-        }
-        own
-    }
-
-    /// Finds C of a part from W and g.
-    fn part(&mut self, p: usize, part: &Part<f64>, squares: &[f64]) {
-        let both = || squares.iter().zip(&part.place);
-        let sum: f64 = squares.iter().sum();
-        let fourths: f64 = squares.iter().map(|square| square * square).sum();
-        let least = sum.max(f64::MIN_POSITIVE);
-        let mean = both().map(|(square, s)| square * s).sum::<f64>() / least;
-        let away = |s: &f64| (s - mean) * (s - mean);
-        let variance = both().map(|(square, s)| square * away(s)).sum::<f64>() / least;
-        // A single strip has no variance; it is as wide as it is.
-        let spread = variance.max(part.width * part.width * LEAST_SPREAD);
-        // A part whose load falls to none is as wide as can be over its half lengths.
-        let log = match sum > 0.0 {
-            true => 0.5 * libm::log(4.0 * spread * sum / fourths),
-            false => f64::INFINITY,
-        };
-        let [factor, slope] = if sum > 0.0 { log_factor(log) } else { [0.0; 2] };
-        let [share, share_slope] = ratio::share(log);
-        self.shares[p] = share;
-        for (m, square) in squares.iter().enumerate() {
-            let k = p * STRIPS + m;
-            if *square > 0.0 {
-                let by_spread = match spread > variance {
-                    true => 0.0,
-                    false => (away(&part.place[m]) - variance) / (sum * variance),
-                };
-                self.ratio_by[k] = 0.5 * by_spread - square / fourths + 0.5 / sum;
-            }
-            let local = libm::log(2.0 * PI / self.bending[k]);
-            self.by_ratio[k] = share_slope * (local - factor) + (1.0 - share) * slope;
-            self.rates[k] = part.curvature[m] * libm::exp(share * local + (1.0 - share) * factor);
-        }
-    }
-
-    /// Returns the relative changes of C as the parts and the squares change: derivatives alone.
-    fn changes<S: Real>(
-        &self,
-        parts: &[Part<S>],
-        plain: &[Part<f64>],
-        couplings: &Couplings<S>,
-        squares: (&[f64; N], &[S; N]),
-    ) -> [S; N] {
-        let (values, changed) = squares;
-        let (mut grown, mut ratios) = ([S::zero(); N], [S::zero(); PARTS]);
-        for (p, part) in parts.iter().enumerate() {
-            let own = p * STRIPS..(p + 1) * STRIPS;
-            ratios[p] = free(part.width) * (1.0 / part.width.value());
-            for k in own.clone() {
-                ratios[p] += changed[k] * self.ratio_by[k];
-            }
-        }
-        let count = parts.len() * STRIPS;
-        let local = self.shares.iter().any(|share| *share > 0.0);
-        if local {
-            let bending = Influence::Bending;
-            moved(
-                bending,
-                parts,
-                plain,
-                couplings,
-                (values, |_| 1.0),
-                |j, change| grown[j] += change,
-            );
-            for j in 0..count {
-                for k in 0..count {
-                    if values[k] > 0.0 {
-                        grown[j] += changed[k] * self.bending_by[j][k];
-                    }
-                }
-            }
-        }
-        for j in 0..count {
-            let (p, m) = (j / STRIPS, j % STRIPS);
-            let curvature = parts[p].curvature[m];
-            grown[j] = free(curvature) * (1.0 / curvature.value()) + ratios[p] * self.by_ratio[j]
-                - grown[j] * (self.shares[p] / self.bending[j]);
-        }
-        grown
-    }
-}
-
-/// The derivatives of a number, without its value.
-#[inline(always)]
-fn free<S: Real>(value: S) -> S {
-    value - value.value()
-}
-
-/// Gives how the sums over influences of strips k with their weights on strip j change as the parts move, at
-/// the half lengths as they are.
-#[inline(always)]
-fn moved<S: Real>(
-    influence: Influence,
-    parts: &[Part<S>],
-    plain: &[Part<f64>],
-    couplings: &Couplings<S>,
-    (squares, weight): (&[f64], impl Fn(usize) -> f64),
-    mut take: impl FnMut(usize, S),
-) {
-    for p in 0..parts.len() {
-        let width = free(parts[p].width);
-        let own = &squares[p * STRIPS..(p + 1) * STRIPS];
-        let mut by_width = [0.0; STRIPS];
-        influences(influence, plain, p, own, |q, j, m, difference, half| {
-            let (k, n, inverse) = (p * STRIPS + m, j % STRIPS, 1.0 / half);
-            let (slope, sum) = (difference.slope, 0.5 * difference.sum);
-            if q == p {
-                let apart = n as f64 - m as f64;
-                by_width[n] += weight(k) * (apart * slope + sum) * inverse;
-                return;
-            }
-            let away = free(parts[q].place[n]) - free(parts[p].place[m]);
-            let coupling = couplings[q][p];
-            let change = (away * slope + width * sum) * (coupling.value() * inverse)
-                + free(coupling) * difference.value;
-            take(j, change * weight(k));
-        });
-        for (n, slope) in by_width.into_iter().enumerate() {
-            take(p * STRIPS + n, width * slope);
-        }
-    }
 }
 
 /// The solution at given C without derivatives, for N strips.
@@ -442,71 +265,6 @@ impl<const N: usize> Solution<N> {
             gained[strip] = *change;
         }
         gained
-    }
-}
-
-/// Gives the influence of each strip m in contact of part p on each strip j (of part q) to `take`, with its
-/// half length.
-#[inline(always)]
-fn influences(
-    influence: Influence,
-    parts: &[Part<f64>],
-    p: usize,
-    squares: &[f64],
-    mut take: impl FnMut(usize, usize, usize, Difference, f64),
-) {
-    let (kernel, part) = (kernel(), &parts[p]);
-    let width = part.width;
-    for m in 0..STRIPS {
-        if squares[m] == 0.0 {
-            continue;
-        }
-        let half = squares[m].sqrt();
-        let inverse = 1.0 / half;
-        // Strips of this part on one side of strip m, by their distance.
-        let mut beside = [Difference::default(); STRIPS];
-        let (step, mut before) = (width * inverse, [0.0; 3]);
-        for (i, own) in beside.iter_mut().enumerate().take(m.max(STRIPS - 1 - m) + 1) {
-            let t = (i as f64 + 0.5) * step;
-            let [value, slope] = kernel.at(influence, t);
-            let scaled = t * slope;
-            *own = match i {
-                0 => Difference {
-                    value: 2.0 * value,
-                    scaled: 2.0 * scaled,
-                    slope: 0.0,
-                    sum: 2.0 * slope,
-                },
-                _ => Difference {
-                    value: value - before[0],
-                    scaled: scaled - before[2],
-                    slope: slope - before[1],
-                    sum: slope + before[1],
-                },
-            };
-            before = [value, slope, scaled];
-        }
-        for n in 0..STRIPS {
-            let mut own = beside[n.abs_diff(m)];
-            if n < m {
-                own.slope = -own.slope;
-            }
-            take(p, p * STRIPS + n, m, own, half);
-        }
-        for (q, other) in parts.iter().enumerate().filter(|(q, _)| *q != p) {
-            for (n, place) in other.place.iter().enumerate() {
-                let away = place - part.place[m];
-                let [t1, t0] = [0.5, -0.5].map(|side| (away + side * width) * inverse);
-                let ([v1, s1], [v0, s0]) = (kernel.at(influence, t1), kernel.at(influence, t0));
-                let own = Difference {
-                    value: v1 - v0,
-                    scaled: t1 * s1 - t0 * s0,
-                    slope: s1 - s0,
-                    sum: s1 + s0,
-                };
-                take(q, q * STRIPS + n, m, own, half);
-            }
-        }
     }
 }
 
