@@ -7,9 +7,10 @@
 //!
 //! One of its two bodies must have free coordinates, whichever.
 //!
-//! **Internal states.** An element may have a coordinate of its own and its velocity ([`Element::has_states`]),
-//! whose rates it gives with its wrench: the roll of a rail under a wheel, the place of a mass that swings
-//! beside a body. The integrator counts both as deflections in m: the velocity comes as the way of 1 ms.
+//! **Internal states.** An element may have a coordinate of its own and its velocity
+//! ([`Element::has_states`]), whose rates it gives with its wrench: the roll of a rail under a wheel, the
+//! place of a mass that swings beside a body. The integrator counts both as deflections in m: the velocity
+//! comes as the way of 1 ms.
 //!
 //! Limits: such an element has no events of its own; contact faces have.
 

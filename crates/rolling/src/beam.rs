@@ -25,13 +25,14 @@
 //!
 //! **Limits.** Quasi-static: no waves run along the rail, masses and dampers are those of pieces under the
 //! wheels. Wheels of other trucks are not felt; the distance is the wheelbase. A wheel rolls on a head that
-//! its own forces roll, not on what the roll under the other wheel adds (1.6 % of that at 70 in). Level springs are the same in all directions, as those of [`RailSupport`]. Where what pieces lie on is
-//! moved, the spring between them feels that too.
+//! its own forces roll, not on what the roll under the other wheel adds (1.6 % of that at 70 in). Level
+//! springs are the same in all directions, as those of [`RailSupport`]. Where what pieces lie on is moved,
+//! the spring between them feels that too.
 
 use super::track::RailSupport;
 
-/// Mass moment of inertia of a rail 136RE about its base, kg·m²/m: 7,850 kg/m³ times the moments of inertia of
-/// its section, 14.7 + 94.9 in⁴, and its 13.35 in² at 3.35 in (remembered).
+/// Mass moment of inertia of a rail 136RE about its base, kg·m²/m: 7,850 kg/m³ times the moments of inertia
+/// of its section, 14.7 + 94.9 in⁴, and its 13.35 in² at 3.35 in (remembered).
 const ROLL_INERTIA: f64 = 0.85;
 /// Damping of the roll, a share of the critical one (guess).
 const ROLL_DAMPING: f64 = 0.1;

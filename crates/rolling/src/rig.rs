@@ -283,7 +283,8 @@ impl Rig {
         self.axes.apply_transposed::<f64, f64>(vector)
     }
 
-    /// Returns both wheels with their motions on their rails and their internal states; none of linear wheels.
+    /// Returns both wheels with their motions on their rails and their internal states; none of linear
+    /// wheels.
     pub(crate) fn motions(&self, seen: &Observation) -> Option<[Rolling<'_>; 2]> {
         let (wheels, half) = self.wheels.as_ref()?;
         Some([0, 1].map(|index| {

@@ -284,7 +284,7 @@ impl WheelOnRail {
             // The head turns about the axis: relative to it the wheel moves the other way.
             let [along, across, above] = unrolled;
             for i in 0..3 {
-                velocity[i] = velocity[i] - (across[i] * arm[1] - above[i] * arm[0]) * (rate * sign);
+                velocity[i] -= (across[i] * arm[1] - above[i] * arm[0]) * (rate * sign);
                 angular_velocity[i] += along[i] * (rate * sign);
             }
             section = rolled(section, self.side, own, angle.sin_cos());

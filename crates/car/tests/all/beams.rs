@@ -88,8 +88,8 @@ fn energy_a_curve_on_shared_rails() {
     assert!(last.axles[0].gauge_widening < 0.01, "{:?}", last.axles[0]);
 }
 
-/// What friction holds after shaking holds on rails that roll: the car comes to rest and starts so, as well as
-/// on pieces of rail.
+/// What friction holds after shaking holds on rails that roll: the car comes to rest and starts so, as well
+/// as on pieces of rail.
 #[test]
 fn limits_a_shaken_car_rests_on_shared_rails() {
     let shaken = |mut parameters: Parameters| {

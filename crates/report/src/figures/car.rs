@@ -120,8 +120,8 @@ fn damage(run: &CarRun) -> Option<Exhibit> {
             rails.collect(),
         ),
     ];
-    let caption = "Depth that wheels wear over 100,000 miles, and rails over 1,000,000 gross tons, of this run \
-                   again and again on profiles as they are: Archard's law by the map of [damage].";
+    let caption = "Depth that wheels wear over 100,000 miles, and rails over 1,000,000 gross tons, of this \
+                   run again and again on profiles as they are: Archard's law by the map of [damage].";
     let name = run.case.name.as_str();
     Some(Exhibit::new(
         format!("{name}_damage"),

@@ -37,8 +37,8 @@ pub(crate) fn of_support(support: Option<&RailSupport>, own: &str, gravity: f64)
         Some(support) if support.beam.is_some() => {
             "Rails are beams on springs, of which the wheels of a truck on a side share one, quasi-static \
              and without waves; the rail rolls about its base under its wheel, which does not see what the \
-             other wheel's roll adds; the roll stiffness of the foundation and the torsional stiffness of the \
-             rail are guesses unless given."
+             other wheel's roll adds; the roll stiffness of the foundation and the torsional stiffness of \
+             the rail are guesses unless given."
                 .to_owned()
         }
         Some(support) if *support == RailSupport::default_support("rail", gravity) => {

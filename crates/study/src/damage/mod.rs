@@ -1,10 +1,11 @@
 //! Damage of wheels and rails over a run: wear, rolling contact fatigue, and where it is on the profiles.
 //!
-//! Every row after the start has settled stands for the time since the row before it. Patches give the power of
-//! creep, normal force, pressure, friction and place; the laws are those of [`wheelrail::damage`].
+//! Every row after the start has settled stands for the time since the row before it. Patches give the power
+//! of creep, normal force, pressure, friction and place; the laws are those of [`wheelrail::damage`].
 //!
-//! A wheel's damage is the mean round its tread, a rail's the mean along the track: the depth, along the normal,
-//! is the volume by the width of the place on the profile and by the circumference, or by the distance.
+//! A wheel's damage is the mean round its tread, a rail's the mean along the track: the depth, along the
+//! normal, is the volume by the width of the place on the profile and by the circumference, or by the
+//! distance.
 //!
 //! Limits: patches are Hertz's ellipses for their pressure; profiles do not wear within a run.
 
@@ -175,8 +176,8 @@ impl Damage {
 }
 
 impl OfWheel {
-    /// Returns the depth (m) along the normal that a place of the profile wears by a volume (m³) times the cosine
-    /// of its contact angle.
+    /// Returns the depth (m) along the normal that a place of the profile wears by a volume (m³) times the
+    /// cosine of its contact angle.
     #[must_use]
     pub fn depth(&self, square: f64) -> f64 {
         square / (self.surface.width() * TAU * self.radius)

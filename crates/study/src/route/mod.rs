@@ -4,8 +4,8 @@
 //! damage of a mile is the mean by their shares. The service is cut into steps: after each, wheels have the
 //! profiles and wedges the depths that the step has worn, and all runs are made again.
 //!
-//! Limits: steps are explicit, so that a step must wear little of what it depends on; wear of a run stands for
-//! that of all passages of its track. Rails keep their profiles: other cars wear them too.
+//! Limits: steps are explicit, so that a step must wear little of what it depends on; wear of a run stands
+//! for that of all passages of its track. Rails keep their profiles: other cars wear them too.
 
 mod read;
 mod sum;
@@ -125,7 +125,8 @@ impl Route {
         car_of(&self.source, &all)
     }
 
-    /// Returns the settings with which wheels have these profiles, files in a folder, and wedges these depths.
+    /// Returns the settings with which wheels have these profiles, files in a folder, and wedges these
+    /// depths.
     #[must_use]
     pub fn worn_settings(&self, worn: &Worn, folder: &Path) -> Vec<String> {
         let mut set = Vec::new();

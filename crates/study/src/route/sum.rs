@@ -393,8 +393,8 @@ impl<'r> RouteWear<'r> {
             .fold(0.0, |most: f64, own| most.max(*own));
         if most > LONG[0] {
             self.warn(format!(
-                "a step wears a wheel by up to {:.2} mm, and the contacts move with it: the next profile is that \
-                 of one place worn on and on. Take more steps: some {:.0}",
+                "a step wears a wheel by up to {:.2} mm, and the contacts move with it: the next profile is \
+                 that of one place worn on and on. Take more steps: some {:.0}",
                 1e3 * most,
                 (f64::from(self.route.steps) * most / LONG[0]).ceil()
             ));
@@ -487,19 +487,20 @@ fn assumptions(route: &Route) -> Vec<String> {
         "Every track is passed as in its run again and again; depths of a step are those of its start's pace."
             .to_owned(),
         match route.wheels {
-            WheelWear::Mean => "All wheels wear alike, by the mean of all: cars run both ways round.".to_owned(),
-            WheelWear::Each => "Each wheel wears by its own damage: the car always runs the same way.".to_owned(),
+            WheelWear::Mean => "All wheels wear by the mean of all: cars run both ways round.".to_owned(),
+            WheelWear::Each => "Each wheel wears by its own damage: the car runs one way.".to_owned(),
             WheelWear::Nothing => "Profiles of wheels stay as they are.".to_owned(),
         },
-        "Rails keep their profiles. Wear by Archard's map of [damage] and fatigue by its function are remembered \
-         from publications and measured dry: they rank, they do not give a life."
+        "Rails keep their profiles. Wear by Archard's map of [damage] and fatigue by its function are \
+         remembered from publications and measured dry: they rank, they do not give a life."
             .to_owned(),
     ];
     all.push(match &route.wedges {
         None => "Wedges do not wear: the route has no [wedges].".to_owned(),
         Some(law) => format!(
-            "Wedges wear by the energy of their friction with K = {:e} on a hardness of {:.0} MPa, one depth a face; \
-             column and pocket wear {} times what the wedge does. K is a guess, known to an order of magnitude.",
+            "Wedges wear by the energy of their friction with K = {:e} on a hardness of {:.0} MPa, one depth \
+             a face; column and pocket wear {} times what the wedge does. K is a guess, known to an order of \
+             magnitude.",
             law.coefficient,
             1e-6 * law.hardness,
             law.counterface

@@ -1,8 +1,8 @@
 //! Wear of wedges by the energy of their friction.
 //!
 //! Archard's law with a coefficient of friction μ: `V = K/H ∫ N |v| dt = K E / (μ H)`, with the energy E that
-//! the ledger has for each face. The depth is the mean over the face. Column and pocket wear by a ratio of what
-//! the wedge's faces lose; a car's keys `column_wear` and `slope_wear` are the sums of both.
+//! the ledger has for each face. The depth is the mean over the face. Column and pocket wear by a ratio of
+//! what the wedge's faces lose; a car's keys `column_wear` and `slope_wear` are the sums of both.
 //!
 //! Limits: one depth a face; where on a face it wears, `wedgelab wear` says for a single wedge. K is a guess,
 //! known to an order of magnitude at best.
@@ -55,8 +55,8 @@ impl WedgeLaw {
         own
     }
 
-    /// Returns the depth (m) that a face and its counterface lose together by an energy (J), with a coefficient
-    /// of friction, over an area (m²).
+    /// Returns the depth (m) that a face and its counterface lose together by an energy (J), with a
+    /// coefficient of friction, over an area (m²).
     #[must_use]
     pub fn depth(&self, energy: f64, friction: f64, area: f64) -> f64 {
         if !(friction > 0.0 && area > 0.0) {

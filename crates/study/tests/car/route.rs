@@ -19,7 +19,7 @@ coefficient = 2e-6
 [tracks.curve]
 share = 0.25
 [tracks.curve.set]
-track.segments = [{ tangent = \"60 ft\" }, { spiral = \"100 ft\" }, { curve = \"600 ft\", degree = \"8 deg\" }]
+track.segments = [{ tangent = \"60 ft\" }, { spiral = \"99 ft\" }, { curve = \"600 ft\", degree = \"8 deg\" }]
 [tracks.tangent]
 share = 0.75
 [tracks.tangent.set]

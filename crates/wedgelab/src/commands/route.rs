@@ -27,12 +27,13 @@ use crate::progress::Steady;
 ///
 /// A route file names a car, tracks and seasons with their shares of the distance, and what each sets: track,
 /// speed, lading, friction. Every track is run in every season; damage of a mile is the mean by the shares.
-/// The service is cut into steps, after each of which wheels have their worn profiles and wedges their depths,
-/// and all is run again. Writes route.json, route.csv, route.svg, route.png, route.txt; runs/ holds the summary
-/// and case of each run, worn/ the profiles. The same command continues a route that was stopped or killed.
+/// The service is cut into steps, after each of which wheels have their worn profiles and wedges their
+/// depths, and all is run again. Writes route.json, route.csv, route.svg, route.png, route.txt; runs/ holds
+/// the summary and case of each run, worn/ the profiles. The same command continues a route that was stopped
+/// or killed.
 ///
-/// Coefficients of wear and fatigue are remembered from publications, that of wedges is a guess: they rank cars
-/// and tracks.
+/// Coefficients of wear and fatigue are remembered from publications, that of wedges is a guess: they rank
+/// cars and tracks.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

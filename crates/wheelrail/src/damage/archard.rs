@@ -11,13 +11,14 @@
 //! The mean sliding speed of a patch is `P / (μ N)`.
 //!
 //! **Map** (Jendel 2002, KTH, with Lewis and Olofsson 2004; numbers remembered). k depends on the largest
-//! pressure p and on the sliding speed v: mild wear 1 to 10e-4 below 0.2 m/s and above 0.7 m/s, severe wear 30
-//! to 40e-4 between, 300 to 400e-4 where p passes 0.8 H; the defaults are the middle of each. H is 3 GPa
-//! (remembered, a usual wheel or rail steel). It was measured dry, on disks and pins of wheel and rail steels.
+//! pressure p and on the sliding speed v: mild wear 1 to 10e-4 below 0.2 m/s and above 0.7 m/s, severe wear
+//! 30 to 40e-4 between, 300 to 400e-4 where p passes 0.8 H; the defaults are the middle of each. H is 3 GPa
+//! (remembered, a usual wheel or rail steel). It was measured dry, on disks and pins of wheel and rail
+//! steels.
 //!
-//! **Limits.** One coefficient a patch, by its largest pressure and its mean sliding speed; the map has edges,
-//! where wear jumps. Lubricated and wet contacts wear less by an order of magnitude: scale the coefficients.
-//! The volume is that of one of the two surfaces: both wear alike.
+//! **Limits.** One coefficient a patch, by its largest pressure and its mean sliding speed; the map has
+//! edges, where wear jumps. Lubricated and wet contacts wear less by an order of magnitude: scale the
+//! coefficients. The volume is that of one of the two surfaces: both wear alike.
 
 /// A map of coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,16 +1,17 @@
 //! What damage leaves on a profile: sums over places of equal width across it.
 //!
-//! Places are counted by y, across the track. A patch spreads what it does over its width 2 b in y as `3/4b (1 - (y/b)²)`, as Hertz's pressure does in strips
-//! along the rolling direction. Each place gets the integral over it, so that the sum over all is the whole,
-//! and what lies beyond the ends goes to the outermost places.
+//! Places are counted by y, across the track. A patch spreads what it does over its width 2 b in y as `3/4b
+//! (1 - (y/b)²)`, as Hertz's pressure does in strips along the rolling direction. Each place gets the
+//! integral over it, so that the sum over all is the whole, and what lies beyond the ends goes to the
+//! outermost places.
 
 /// What a patch does to a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Dose {
     /// Worn volume, m³.
     pub volume: f64,
-    /// Worn volume times the cosine of the contact angle, m³: the depth along the normal comes of it, on places
-    /// that are counted across the track.
+    /// Worn volume times the cosine of the contact angle, m³: the depth along the normal comes of it, on
+    /// places that are counted across the track.
     pub square: f64,
     /// Energy that creep took, J.
     pub energy: f64,
