@@ -21,6 +21,9 @@ const REACH: i32 = 100;
 const OF_WHEELS: f64 = 1e5 * 1_609.344;
 /// A step that wears a wheel deeper than this, or a wedge's rise higher, is called long, m.
 const LONG: [f64; 2] = [0.3e-3, 3e-3];
+/// A route does not go on from a step that wears a wheel deeper than this, or lifts a wedge higher, m: its
+/// profile would be none that a wheel ever has.
+const TOO_LONG: [f64; 2] = [1e-3, 10e-3];
 
 /// A run with its outcome.
 #[derive(Clone, Debug)]
@@ -110,6 +113,8 @@ pub struct RouteWear<'r> {
     wedges: BTreeMap<String, [f64; 2]>,
     /// The outcome so far.
     pub summary: RouteSummary,
+    /// Why it cannot go on, if the last step is too long.
+    pub too_long: Option<String>,
 }
 
 fn places() -> impl Iterator<Item = f64> {
@@ -133,28 +138,18 @@ fn si(own: &SummaryValue, kind: Kind, units: Units) -> f64 {
     own.value / kind.from_si(units)
 }
 
-/// Adds damage over a profile times a share to that at the places; numbers in units of the summary.
-fn add(to: &mut [[f64; 2]], places_of: &[PlaceDamage], share: f64, length: f64) {
-    for (sum, y) in to.iter_mut().zip(places()) {
-        let at = y * length;
-        let next = places_of.partition_point(|own| own.y <= at);
-        let Some([before, after]) = next
-            .checked_sub(1)
-            .and_then(|k| places_of.get(k..k + 2))
-            .map(|own| {
-                let [a, b] = [&own[0], &own[1]];
-                [a, b]
-            })
-        else {
-            continue;
-        };
-        // Places without damage are left out of summaries.
-        if after.y - before.y > 1.5 * PLACE * length {
-            continue;
+/// Adds damage over a profile times a share to that at the places; numbers in units of the summary. What is
+/// between two places goes to both, so that the sum stays.
+fn add(to: &mut [[f64; 2]], damaged: &[PlaceDamage], share: f64, length: f64) {
+    for own in damaged {
+        let at = own.y / (length * PLACE) + f64::from(REACH);
+        let (before, part) = (at.floor(), at - at.floor());
+        for (number, weight) in [(before, 1.0 - part), (before + 1.0, part)] {
+            if let Some(sum) = (number >= 0.0).then(|| to.get_mut(number as usize)).flatten() {
+                sum[0] += share * weight * own.depth;
+                sum[1] += share * weight * own.fatigue;
+            }
         }
-        let part = (at - before.y) / (after.y - before.y);
-        sum[0] += share * (before.depth + part * (after.depth - before.depth));
-        sum[1] += share * (before.fatigue + part * (after.fatigue - before.fatigue));
     }
 }
 
@@ -220,6 +215,7 @@ impl<'r> RouteWear<'r> {
             wheels: BTreeMap::new(),
             wedges: BTreeMap::new(),
             summary,
+            too_long: None,
         }
     }
 
@@ -370,6 +366,18 @@ impl<'r> RouteWear<'r> {
         }
     }
 
+    /// Says whether a step is too long to go on from.
+    fn see_length(&mut self, of: usize, most: f64, does: &str) {
+        if most > TOO_LONG[of] {
+            self.too_long = Some(format!(
+                "a step {does} {:.1} mm at once; at least {:.0} steps are needed, {:.0} would be short",
+                1e3 * most,
+                (f64::from(self.route.steps) * most / TOO_LONG[of]).ceil(),
+                (f64::from(self.route.steps) * most / LONG[of]).ceil()
+            ));
+        }
+    }
+
     /// Wears wheels over a way, m.
     fn wear_wheels(&mut self, sums: &BTreeMap<String, Sum>, way: f64) {
         let length = Kind::Length.from_si(self.summary.units);
@@ -399,6 +407,7 @@ impl<'r> RouteWear<'r> {
                 (f64::from(self.route.steps) * most / LONG[0]).ceil()
             ));
         }
+        self.see_length(0, most, "wears a wheel by");
         for (name, grown) in grown {
             let own = self.wheels.entry(name).or_insert_with(|| vec![0.0; grown.len()]);
             own.iter_mut().zip(grown).for_each(|(own, grown)| *own += grown);
@@ -447,6 +456,7 @@ impl<'r> RouteWear<'r> {
             own[0] += column;
             own[1] += slope;
         }
+        self.see_length(1, most, "lets a wedge rise by");
         if most > LONG[1] {
             self.warn(format!(
                 "a step lets a wedge rise by {:.1} mm: take more steps, some {:.0}",

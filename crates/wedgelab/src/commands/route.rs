@@ -78,6 +78,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let cases: Vec<CarCase> = cases.collect::<Result<_, _>>()?;
         let found = step_of((&runs, &cases), &folder, jobs(arguments.jobs), &progress)?;
         wear.step(&found);
+        if wear.too_long.is_some() {
+            break;
+        }
     }
     progress.finish();
     let summary = &wear.summary;
@@ -97,6 +100,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         path.display(),
         NAMES.join(", ")
     )?;
+    if let (Some(reason), true) = (&wear.too_long, summary.steps.len() < route.steps as usize) {
+        let message = format!("the route stops after step {}: {reason}", summary.steps.len());
+        let advice = "write more `steps`, or fewer `miles`; the steps that were made are written";
+        return Err(Failure::Failed(Message::new(message, advice).into()));
+    }
     let incomplete = summary
         .steps
         .iter()
