@@ -13,7 +13,7 @@ use crate::damage::{PlaceDamage, RailDamage, WheelDamage};
 use crate::summary::{RunSummary, SummaryValue};
 
 /// The schema's name and version.
-pub const SCHEMA: &str = "wedgelab.route/1";
+const SCHEMA: &str = "wedgelab.route/1";
 /// Places of summed profiles are at multiples of this, to both sides up to [`REACH`] of them, m.
 const PLACE: f64 = 1e-3;
 const REACH: i32 = 100;
@@ -37,7 +37,7 @@ pub struct OfRun {
 /// The outcome of a route.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RouteSummary {
-    /// [`SCHEMA`].
+    /// Name and version of its schema: `wedgelab.route/1`.
     pub schema: String,
     /// Version of the program that wrote it.
     pub program: String,

@@ -182,3 +182,24 @@ fn input_routes() {
     let no_share = with("[tracks.curve]", "[tracks.a.b]\nshare = 0.1\n[tracks.curve]");
     assert!(no_share.contains("share"), "{no_share}");
 }
+
+#[test]
+fn input_documented_routes_are_valid() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/routes");
+    let files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|file| file.unwrap().path())
+        .collect();
+    assert!(!files.is_empty());
+    for file in files {
+        let route = Route::read(&file)
+            .map_err(|error| in_words(error.problems()))
+            .unwrap();
+        for run in route.runs() {
+            route
+                .case(run.of, &[])
+                .map_err(|error| in_words(error.problems()))
+                .unwrap();
+        }
+    }
+}
