@@ -43,9 +43,9 @@ pub(super) fn section(damage: &DamageSummary) -> Markup {
         p {
             "What creep takes by the distance, all wheels: " (shown(Some(&damage.creep_resistance)))
             ". Wheels over 100,000 miles and rails over 1,000,000 gross tons of this run again and again, \
-             their profiles as they are: a depth of more than a few millimeters says how fast it goes, for the \
-             profile would change long before. Fatigue: 1e-5 of the life to a visible crack, where it is largest. \
-             Dry coefficients from memory: they rank cars and tracks; a life they do not give."
+             their profiles as they are: a depth of more than a few millimeters says how fast it goes, for \
+             the profile would change long before. Fatigue: 1e-5 of the life to a visible crack, where it is \
+             largest. Dry coefficients from memory: they rank cars and tracks; a life they do not give."
         }
         (table::wide(&heads("wheel", "worn steel"), wheels))
         (table::wide(&heads("rail", "worn area over an inch"), rails))
