@@ -153,7 +153,7 @@ fn add(to: &mut [[f64; 2]], damaged: &[PlaceDamage], share: f64, length: f64) {
     }
 }
 
-/// What is known of a surface from runs: sums of three numbers, and over the places.
+/// The mean of a surface over runs: of two numbers, and over the places; numbers in units of the summary.
 struct Sum {
     numbers: [f64; 2],
     over: Vec<[f64; 2]>,
@@ -165,6 +165,14 @@ impl Sum {
             numbers: [0.0; 2],
             over: places().map(|_| [0.0; 2]).collect(),
         }
+    }
+
+    /// Adds a run's numbers and profile by its share.
+    fn take(&mut self, share: f64, numbers: [f64; 2], profile: &[PlaceDamage], length: f64) {
+        for (sum, own) in self.numbers.iter_mut().zip(numbers) {
+            *sum += share * own;
+        }
+        add(&mut self.over, profile, share, length);
     }
 
     fn profile(&self, length: f64) -> Vec<PlaceDamage> {
@@ -297,25 +305,22 @@ impl<'r> RouteWear<'r> {
                 if own.largest_depth.value > track.largest_depth.value {
                     (track.largest_depth, track.wheel) = (own.largest_depth.clone(), name.clone());
                 }
+                let numbers = [own.wear_number.value, own.worn_mass.value];
                 let sum = wheels.entry(name.clone()).or_insert_with(Sum::new);
-                sum.numbers[0] += run.share * own.wear_number.value;
-                sum.numbers[1] += run.share * own.worn_mass.value;
-                add(&mut sum.over, &own.profile, run.share, length);
+                sum.take(run.share, numbers, &own.profile, length);
             }
             for (name, own) in &damage.rails {
+                let numbers = [own.wear_number.value, own.worn_over_an_inch.value];
                 let sum = rails.entry(name.clone()).or_insert_with(Sum::new);
-                sum.numbers[0] += run.share * own.wear_number.value;
-                sum.numbers[1] += run.share * own.worn_over_an_inch.value;
-                add(&mut sum.over, &own.profile, run.share, length);
+                sum.take(run.share, numbers, &own.profile, length);
             }
             told.push(track);
         }
         self.wear_wheels(&wheels, part);
         self.wear_wedges(runs, part);
-        let unit = |kind: Kind| kind.label(units).to_owned();
         let shown = |own: f64, kind: Kind| SummaryValue {
             value: own,
-            unit: unit(kind),
+            unit: kind.label(units).to_owned(),
         };
         let of_wheels = wheels.into_iter().map(|(name, sum)| {
             let ([depth, place], fatigue) = sum.largest(length);
