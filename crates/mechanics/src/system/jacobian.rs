@@ -9,7 +9,7 @@ use numerics::lanes::LANES;
 use numerics::partitioned::Partitioned;
 use numerics::scalar::Dual;
 
-use super::chain::{Block, Chain, NO_BLOCK, Powers, add_block};
+use super::chain::{Block, Chain, NO_BLOCK, Powers, Rows, add_block};
 use super::forces::{Mountable, WORK};
 use super::{FreeBody, Mounted, System};
 use crate::body::Kinematics;
@@ -327,6 +327,22 @@ fn keep_rates<E>(
     }
 }
 
+/// Keeps the derivatives of the load on a body by an internal state, the first or the second of its pair.
+#[inline(always)]
+fn keep_force(
+    rows: &Rows,
+    free: &FreeBody,
+    (group, side, state): (usize, usize, usize),
+    jacobian: &mut Partitioned,
+) {
+    let n = free.free.len();
+    let [_, _, f_t] = jacobian.side_mut(group, side);
+    for (index, target) in f_t[state * n..][..n].iter_mut().enumerate() {
+        let (part, component) = free.row(index);
+        *target = rows[part].at(component);
+    }
+}
+
 /// The derivatives by the internal states of a face: of their own rates, of the forces, of the powers.
 pub(super) fn differentiate_internal(
     face: &Mounted<ContactFace<Interface>>,
@@ -350,13 +366,7 @@ pub(super) fn differentiate_internal(
             let mut moment: Vector<f64> = arm.cross(force);
             moment.0[2] += face.element.surface.first_arm * force.0[1];
             for (side, free) in ends.iter().flatten().enumerate() {
-                let rows = chain.load(side, force, moment);
-                let n = free.free.len();
-                let [_, _, f_t] = jacobian.side_mut(group, side);
-                for (index, target) in f_t[e * n..][..n].iter_mut().enumerate() {
-                    let (part, component) = free.row(index);
-                    *target = rows[part].at(component);
-                }
+                keep_force(&chain.load(side, force, moment), free, (group, side, e), jacobian);
             }
             if face.prescribed {
                 jacobian.internal_row_mut(row + 1)[e] = face.prescribed_power(relative, force, moment);
@@ -384,13 +394,7 @@ pub(super) fn differentiate_states(
     for (e, column) in by.wrench.iter().enumerate() {
         let (force, moment) = (force_of(column).scale(factor), moment_of(column).scale(factor));
         for (side, free) in ends.iter().flatten().enumerate() {
-            let rows = chain.load(side, force, moment);
-            let n = free.free.len();
-            let [_, _, f_t] = jacobian.side_mut(group, side);
-            for (index, target) in f_t[e * n..][..n].iter_mut().enumerate() {
-                let (part, component) = free.row(index);
-                *target = rows[part].at(component);
-            }
+            keep_force(&chain.load(side, force, moment), free, (group, side, e), jacobian);
         }
         jacobian.internal_row_mut(row)[e] = factor * column[0].at(3);
         if mounted.prescribed {
