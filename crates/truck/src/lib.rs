@@ -54,10 +54,10 @@ pub use parameters::{
 };
 pub use split::{HALVES, WedgePart};
 pub use statics::{CoilGroup, TruckStatics};
-pub use wedge_mount::{WedgeElements, WedgeMount, add_wedge, wedge_body};
+pub use wedge_mount::{WedgeElements, WedgeMount, add_wedge, reversed, wedge_body};
 
 /// The names of the wedges in the order of all arrays of four: end (leading, trailing), then side.
 pub const WEDGE_NAMES: [&str; 4] = ["leading_left", "leading_right", "trailing_left", "trailing_right"];
 
 /// Ends (leading 1, trailing -1) and sides (left 1, right -1) of the wedges.
-pub(crate) const PLACES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+pub const PLACES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];

@@ -145,12 +145,12 @@ pub(crate) fn attach_lying(
         ),
     ];
     for (on, face, x, pitch, gap, (friction, properties)) in faces {
-        let (lower, across) = match face {
-            "column" => (-1.0, 0.0),
-            _ => (2.0, wedge.slope_across * lies.pushed),
+        let [of_column, of_slope] = wedge.rectangles();
+        let (rectangle, across) = match face {
+            "column" => (of_column, 0.0),
+            _ => (of_slope, wedge.slope_across * lies.pushed),
         };
-        let edges = [lower * length / 3.0, -length / 3.0];
-        let mut points = contact_points(wedge, properties, end, edges, face == "column");
+        let mut points = contact_points(wedge, properties, end, &rectangle);
         incline(&mut points, wedge, end, across);
         for point in &mut points {
             point.position = Vector(in_axes_of(&model.bodies[at.body], point.position.0));
@@ -166,10 +166,7 @@ pub(crate) fn attach_lying(
         ];
         let place = std::array::from_fn(|k| surface[k] + at.from[k]);
         let marker = model.bodies[on].marker(place, [0.0, pitch, across]);
-        // The marker's z axis points down where it is pitched beyond a right angle; a wedge that is turned by
-        // half a turn has its left on the right.
-        let reversed = [cosine < 0.0, end > 0.0];
-        let interface = properties.interface(&friction, reversed);
+        let interface = properties.interface(&friction, reversed(face == "column", end));
         if interface != Interface::default() {
             model.interfaces.push((model.faces.len(), interface));
         }
@@ -252,23 +249,38 @@ fn thesis_coil(model: &mut Model, at: &WedgeMount<'_>, seat: usize, to_center: [
     model.coils.push((at.body, seat, marker, law));
 }
 
-/// Returns the points of a wedge's face, with the lower and the upper edge's x from the center of gravity in
-/// the wedge's own axes; `faces_backward` is that of the vertical face.
+/// Returns whether the z and y axes of a face's marker point down and to the right of the wedge, which has
+/// its column ahead (`end` +1) or behind (-1): z points down where the marker is pitched beyond a right
+/// angle, and a wedge that is turned by half a turn has its left on the right.
+#[must_use]
+pub fn reversed(is_column: bool, end: f64) -> [bool; 2] {
+    [is_column == (end > 0.0), end > 0.0]
+}
+
+impl Wedge {
+    /// Returns its faces, column and slope, in its own axes from its center of gravity.
+    #[must_use]
+    pub fn rectangles(&self) -> [Rectangle; 2] {
+        let length = self.height * libm::tan(self.angle);
+        let [column, slope] = [-1.0, 2.0].map(|lower| lower * length / 3.0);
+        [(column, true), (slope, false)].map(|(lower, faces_backward)| Rectangle {
+            lower: [lower, -self.height / 3.0],
+            upper: [-length / 3.0, 2.0 * self.height / 3.0],
+            width: self.width,
+            faces_backward,
+        })
+    }
+}
+
+/// Returns the points of a wedge's face.
 fn contact_points(
     wedge: &Wedge,
     face: &FaceProperties,
     end: f64,
-    [lower, upper]: [f64; 2],
-    faces_backward: bool,
+    rectangle: &Rectangle,
 ) -> Vec<ContactPoint> {
-    let rectangle = Rectangle {
-        lower: [lower, -wedge.height / 3.0],
-        upper: [upper, 2.0 * wedge.height / 3.0],
-        width: wedge.width,
-        faces_backward,
-    };
     let to_center = wedge.origin_to_center(end);
-    let mut points = face.points(&rectangle, &wedge.contact);
+    let mut points = face.points(rectangle, &wedge.contact);
     for point in &mut points {
         let Vector([x, y, z]) = point.position;
         let own = [-end * x, -end * y, z];

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use ::wheelrail::conicity::RollingRadiusDifference;
-use ::wheelrail::contact::{ContactLaw, CreepLaw, Side};
+use ::wheelrail::contact::{ContactLaw, CreepLaw, PatchForm, Side};
 use ::wheelrail::creep::fastsim::StripGrid;
 use ::wheelrail::creep::{Coefficients, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins};
 use ::wheelrail::friction::Friction;
@@ -278,6 +278,7 @@ impl NativeWheelset {
         radii: [f64; 2],
         shear_modulus: f64,
         poisson: f64,
+        strips: bool,
     ) -> PyResult<Self> {
         let layout = Layout {
             tape_distance,
@@ -296,7 +297,12 @@ impl NativeWheelset {
                 layout,
                 material,
             );
-            let wheelset = made.map_err(|error| of_profile(py, &error))?;
+            let form = if strips {
+                PatchForm::Strips
+            } else {
+                PatchForm::Ellipse
+            };
+            let wheelset = made.map_err(|error| of_profile(py, &error))?.with_patches(form);
             Ok(Self { wheelset, layout })
         })
     }

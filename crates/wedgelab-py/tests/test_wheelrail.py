@@ -191,6 +191,20 @@ def test_sides_of_their_own() -> None:
         wr.Wheelset((cone, cone, cone), rail)  # type: ignore[arg-type]
 
 
+def test_patches_of_strips() -> None:
+    """A cone on a rail's crown touches as Hertz says: strips have his pressure within 1 %."""
+    pair = (wr.Profile.cone(0.05), wr.Profile.nominal("136re").inclined(1 / 40))
+    ellipse, strips = (
+        wr.Wheelset(*pair, patch=form).contact(load="20 kip", friction=0.3, creep="fastsim")
+        for form in ("ellipse", "strips")
+    )
+    both = [float(np.nanmax(own.left.greatest_pressure)) for own in (ellipse, strips)]
+    assert both[0] != both[1]
+    assert abs(both[1] / both[0] - 1) < 0.01
+    with pytest.raises(wl.WheelRailError, match="strips"):
+        wr.Wheelset(*pair, patch="strip")  # type: ignore[arg-type]
+
+
 def test_files_of_measuring_devices(tmp_path: Path) -> None:
     """MiniProf counts from the back of the flange; CSV does where that is said."""
     y, z = wr.Profile.nominal("aar_1b").points()

@@ -24,6 +24,7 @@ pub fn render(run: &CarRun) -> Result<String, serde_json::Error> {
         section { h2 { "At the start" } (statics::section(&summary.statics, summary.units)) }
         section { h2 { "Wedges" } (wedges(summary)) }
         @if let Some(own) = &summary.damage { section { h2 { "Wear and fatigue" } (damage::section(own)) } }
+        (damage::of_wedges(summary.wedge_wear.as_ref()))
     };
     run_page(
         summary,

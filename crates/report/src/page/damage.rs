@@ -1,7 +1,8 @@
-//! Damage of wheels and rails on the page of a car's run.
+//! Damage of wheels, rails and wedges on the page of a run.
 
 use maud::{Markup, html};
 use study::damage::DamageSummary;
+use study::wear::mounted::WedgesWorn;
 
 use super::by_rules::shown;
 use super::table::{self, Head};
@@ -49,5 +50,41 @@ pub(super) fn section(damage: &DamageSummary) -> Markup {
         }
         (table::wide(&heads("wheel", "worn steel"), wheels))
         (table::wide(&heads("rail", "worn area over an inch"), rails))
+    }
+}
+
+/// Returns the section of the wear of wedges, with its heading; nothing where none wear.
+pub(super) fn of_wedges(worn: Option<&WedgesWorn>) -> Markup {
+    let Some(worn) = worn else { return html! {} };
+    let over = format!("{:.0} {}", worn.over.value, worn.over.unit);
+    let heads = [
+        Head::Words("wedge"),
+        Head::Numbers("depth at the column"),
+        Head::Numbers("largest over mean"),
+        Head::Numbers("depth at the slope"),
+        Head::Numbers("largest over mean"),
+        Head::Numbers("rise by both"),
+    ];
+    let rows = worn.wedges.iter().map(|(name, own)| {
+        [
+            name.replace('_', " "),
+            shown(Some(&own.column.mean_depth)),
+            digits(own.column.unevenness),
+            shown(Some(&own.slope.mean_depth)),
+            digits(own.slope.unevenness),
+            shown(Some(&own.rise)),
+        ]
+    });
+    html! {
+        section {
+            h2 { "Wear of wedges" }
+            p {
+                "What the wedge's faces lose in the mean over " (over) " of this run again and again, and \
+                 how much a wedge rises by that and by what column and pocket lose. By Archard's law with \
+                 the coefficients of [damage], which are guesses, known to an order of magnitude: they say \
+                 which wedge and which face wears how much faster than another one."
+            }
+            (table::wide(&heads, rows))
+        }
     }
 }

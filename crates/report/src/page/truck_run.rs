@@ -13,7 +13,7 @@ use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 
 use super::table::{self, Head};
-use super::{figures, ledger_note, run_page, side_by_side, statics};
+use super::{damage, figures, ledger_note, run_page, side_by_side, statics};
 use crate::figures::truck::{TruckRun, exhibits};
 use crate::models::ReportSummary;
 use crate::view::run::{Detail, Recording};
@@ -37,6 +37,7 @@ pub fn render(run: &TruckRun) -> Result<String, serde_json::Error> {
         @if let Some(loss) = &summary.energy.loss {
             section { h2 { "Energy of a cycle" } (losses(&summary.energy, loss)) }
         }
+        (damage::of_wedges(summary.wedge_wear.as_ref()))
         (figures(&exhibits))
     };
     let what = "a three-piece truck with four wedges that have mass";

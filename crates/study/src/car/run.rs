@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use car::{Loads, Wheels};
+use car::{Loads, Parameters, Wheels};
 use integrate::Problem;
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::system::{ContactState, Observation, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
-use truck::WEDGE_NAMES;
+use truck::{WEDGE_NAMES, Wedge};
 use wheelrail::track::CenterLine;
 
 use super::CarCase;
@@ -24,7 +24,7 @@ use super::statistics::filtered::{filtered, look_ahead, with_filtered};
 use super::statistics::{Histories, SIDES, Statistic, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{couplers, limits, locked_in, peaks};
-use crate::damage::{Damage, SavedDamage, Weighed};
+use crate::damage::{Damage, SERVICE, SavedDamage, Weighed};
 use crate::energy;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
@@ -39,6 +39,7 @@ use crate::run::{
 use crate::run_error::{check_length, damaged};
 use crate::statics::StaticTable;
 use crate::summary::{Stopped, SummaryValue};
+use crate::wear::mounted::{Over, SavedWork, WedgesWork};
 use crate::wedge_faces;
 use crate::wedge_rise::{self, AtStart};
 
@@ -65,6 +66,8 @@ pub struct CarRecorder {
     settle: f64,
     /// Damage of wheels and rails; none with linear wheels.
     damage: Option<Damage>,
+    /// What wears the wedges.
+    wedges: WedgesWork,
     /// The time of the row before.
     before: f64,
     /// Poses of its bodies and forces of their faces, if asked for.
@@ -83,6 +86,9 @@ pub struct CarCounts {
     /// Damage of wheels and rails.
     #[serde(default)]
     damage: SavedDamage,
+    /// What wears the wedges.
+    #[serde(default)]
+    wedges: SavedWork,
 }
 
 impl RunCase for CarCase {
@@ -112,6 +118,7 @@ impl RunCase for CarCase {
                 rates: vec![0.0; x.len()],
                 motions: None,
                 damage: damage_of(self),
+                wedges: WedgesWork::new(&car.system, &wedges_of(&self.parameters)),
                 before: 0.0,
                 counts: CarCounts {
                     locked: vec![0; points.len()],
@@ -192,6 +199,7 @@ impl Recorder for CarRecorder {
         CarCounts {
             table: self.rows.saved(),
             damage: self.damage.as_ref().map(Damage::saved).unwrap_or_default(),
+            wedges: self.wedges.saved(),
             ..self.counts.clone()
         }
     }
@@ -211,6 +219,9 @@ impl Recorder for CarRecorder {
             && !damage.restore(&saved)
         {
             return damaged("counts.damage", "sums over other profiles", "those of the case's");
+        }
+        if !self.wedges.restore(std::mem::take(&mut counts.wedges)) {
+            return damaged("counts.wedges", "sums of other wedges", "those of the case's");
         }
         self.before = times.last().copied().unwrap_or_default();
         self.counts = counts;
@@ -246,6 +257,9 @@ impl Recorder for CarRecorder {
         if row.time >= self.settle {
             let time = row.time - self.before.max(self.settle);
             self.wear(&observation, &loads, time);
+            let [_, _, _, quadratures] = system.layout().split(row.x);
+            self.wedges
+                .take(&observation, quadratures, [time, loads.speed * time]);
             self.counts.rows += 1;
             for ((_, points), locked) in self.points.iter().zip(&mut self.counts.locked) {
                 let slips = |place: &usize| row.contact_states[*place] == ContactState::Slip as u8;
@@ -282,6 +296,12 @@ impl CarRecorder {
             damage.take((wheelset, side), &patch, (time, loads.speed * time));
         });
     }
+}
+
+/// Returns the wedges of both trucks, with what precedes their names.
+fn wedges_of(parameters: &Parameters) -> [(&'static str, &[Wedge; 4]); 2] {
+    let [front, rear] = &parameters.trucks;
+    [("truck_1_", &front.wedges), ("truck_2_", &rear.wedges)]
 }
 
 /// Returns damage of a case's wheels and rails, none so far; nothing with linear wheels.
@@ -353,6 +373,12 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let weight = run.case.parameters.weight();
     let damage = run.recorder.damage.as_ref();
     let damage = damage.and_then(|own| own.summary(Weighed { weight, units }));
+    let over = Over::Distance(SERVICE);
+    let wedge_wear = run.recorder.wedges.summary(
+        &wedges_of(&run.case.parameters),
+        &run.case.damage.wedges,
+        (&over, units),
+    );
     let counts = &run.recorder.counts;
     let shares = counts.locked.iter().map(|own| *own as f64 / counts.rows as f64);
     let wedges = run.recorder.points.iter().map(|(wedge, _)| wedge.clone());
@@ -388,6 +414,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         locked_in: locked_in::summary(&run.recorder.table, units),
         statics,
         damage,
+        wedge_wear,
         energy,
         extremes,
         ledger,

@@ -15,6 +15,7 @@ use crate::metrics::Extremes;
 use crate::outcome::RunEnd;
 use crate::statics::StaticTable;
 use crate::summary::{ByRules, LedgerSummary, Stopped, SummaryValue, by_rules, ledger, run_summary};
+use crate::wear::mounted::WedgesWorn;
 use crate::wedge_rise::RiseSummary;
 
 /// The schema's name and version.
@@ -79,6 +80,9 @@ pub struct CarSummary {
     /// Damage of wheels and rails by rolling; none of linear wheels and of older summaries.
     #[serde(default)]
     pub damage: Option<DamageSummary>,
+    /// Wear of the wedges; none where they are massless, or before a distance is made.
+    #[serde(default)]
+    pub wedge_wear: Option<WedgesWorn>,
     /// Sources and sinks of the energy of the run.
     pub energy: EnergySummary,
     /// Least and greatest values of all columns, by their names with units.

@@ -1,4 +1,5 @@
-//! The section `[damage]`: coefficients of wear and rolling contact fatigue of wheels and rails.
+//! The section `[damage]`: coefficients of wear and rolling contact fatigue of wheels and rails, of wear of
+//! wedges.
 
 use quantity::Kind;
 
@@ -7,13 +8,23 @@ use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::section::Range;
 use crate::reader::{CaseReader, QuantityForm};
+use crate::wear::mounted::WedgeLaw;
+
+/// Reads `[damage]` of a truck, which has wedges alone; written where it is given only.
+pub(crate) fn read_of_wedges(r: &mut CaseReader<'_>) -> WedgeLaw {
+    let mut law = WedgeLaw::default();
+    if r.overlay("damage", "Wear of wedges by Archard's law: guesses.") {
+        law.read(r);
+    }
+    law
+}
 
 /// Reads `[damage]`, which is written where it is given only.
 pub(crate) fn read(r: &mut CaseReader<'_>) -> DamageLaws {
     let mut laws = DamageLaws::default();
     let about = "Damage of wheels and rails: coefficients of Archard's law over pressure and sliding speed, \
                  and the\n# damage function of rolling contact fatigue. Numbers are remembered from \
-                 publications; they were measured dry.";
+                 publications; they were measured dry.\n# Wear of wedges by Archard's law: guesses.";
     if !r.overlay("damage", about) {
         return laws;
     }
@@ -69,5 +80,6 @@ pub(crate) fn read(r: &mut CaseReader<'_>) -> DamageLaws {
             .map(|(at, own)| [at, own])
             .collect();
     }
+    laws.wedges.read(r);
     laws
 }

@@ -17,9 +17,14 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use wheelrail::damage::{DamageFunction, Dose, Surface, WearMap};
 
-pub(crate) use keys::read;
+use crate::wear::mounted::WedgeLaw;
+
+pub(crate) use keys::{read, read_of_wedges};
+pub(crate) use summary::of_service;
 pub use summary::{DamageSummary, PlaceDamage, RailDamage, Weighed, WheelDamage};
 
+/// The distance of the numbers of wheels and wedges: 100,000 miles, m.
+pub const SERVICE: f64 = 1e5 * 1_609.344;
 /// Width of the places of a profile, m.
 pub const PLACE: f64 = 1e-3;
 const SIDES: [&str; 2] = ["left", "right"];
@@ -31,6 +36,8 @@ pub struct DamageLaws {
     pub wear: WearMap,
     /// Rolling contact fatigue.
     pub fatigue: DamageFunction,
+    /// Wear of wedges.
+    pub wedges: WedgeLaw,
 }
 
 /// Damage of a wheel.

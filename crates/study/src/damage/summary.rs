@@ -7,13 +7,11 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use wheelrail::damage::{Dose, Surface};
 
-use super::{Damage, SIDES};
+use super::{Damage, SERVICE, SIDES};
 use crate::summary::SummaryValue;
 
 /// Density of steel, kg/m³.
 const STEEL: f64 = 7850.0;
-/// The distance of wheels' numbers: 100,000 miles, m.
-const OF_WHEELS: f64 = 1e5 * 1_609.344;
 /// The tonnage of rails' numbers: 1,000,000 gross tons of 2,000 lb, N.
 const OF_RAILS: f64 = 1e6 * 2000.0 * 4.448_221_615_260_5;
 /// Places with less than this share of the largest depth are left out.
@@ -77,6 +75,18 @@ pub struct PlaceDamage {
     pub fatigue: f64,
 }
 
+/// Returns a way of service (m) in miles or kilometers.
+pub(crate) fn of_service(si: f64, units: Units) -> SummaryValue {
+    let (unit, name) = match units {
+        Units::Us => (1_609.344, "mi"),
+        Units::Si => (1e3, "km"),
+    };
+    SummaryValue {
+        value: si / unit,
+        unit: name.to_owned(),
+    }
+}
+
 /// What damage is weighed by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weighed {
@@ -127,7 +137,7 @@ impl Damage {
             return None;
         }
         let value = |own: f64, kind: Kind| SummaryValue::new(own, kind, units);
-        let times = OF_WHEELS / self.distance;
+        let times = SERVICE / self.distance;
         let wheels = self.wheels.iter().flatten().map(|own| {
             let sum = own.surface.sum();
             let round = TAU * own.radius;

@@ -9,14 +9,14 @@
 
 mod read;
 mod sum;
-mod wedges;
 mod worn;
 
 use std::path::{Path, PathBuf};
 
 pub use sum::{OfRun, RouteStep, RouteSummary, RouteTrack, RouteWear, WedgeDepth};
-pub use wedges::WedgeLaw;
-pub use worn::{Worn, WornProfile, WornWedge};
+pub use worn::{Worn, WornMap, WornProfile, WornWedge};
+
+use wedge::outputs::FACES;
 
 use crate::car::CarCase;
 use crate::case::{CaseError, Problem};
@@ -59,8 +59,8 @@ pub struct Route {
     pub steps: u32,
     /// The profiles that wear.
     pub wheels: WheelWear,
-    /// The law by which wedges wear; none if they do not.
-    pub wedges: Option<WedgeLaw>,
+    /// Settings of the law by which wedges wear; none if they do not.
+    pub wedges: Option<Vec<String>>,
     /// Settings of all runs.
     pub set: Vec<String>,
     /// The tracks.
@@ -121,7 +121,8 @@ impl Route {
     /// The worn car is none.
     pub fn case(&self, [track, season]: [usize; 2], worn: &[String]) -> Result<CarCase, CaseError> {
         let (track, season) = (&self.tracks[track], &self.seasons[season]);
-        let all = [&self.set, &track.set, &season.set, worn].concat();
+        let law = self.wedges.as_deref().unwrap_or_default();
+        let all = [law, &self.set, &track.set, &season.set, worn].concat();
         car_of(&self.source, &all)
     }
 
@@ -130,9 +131,11 @@ impl Route {
     #[must_use]
     pub fn worn_settings(&self, worn: &Worn, folder: &Path) -> Vec<String> {
         let mut set = Vec::new();
+        let placed = |file: &str| {
+            std::path::absolute(folder.join(file)).unwrap_or_else(|_| PathBuf::from(file.to_owned()))
+        };
         for own in &worn.profiles {
-            let path =
-                std::path::absolute(folder.join(own.file())).unwrap_or_else(|_| PathBuf::from(own.file()));
+            let path = placed(&own.file());
             // A literal string of TOML: what is in it stands for itself.
             let wheel = match own.wheel.is_empty() {
                 true => String::new(),
@@ -141,8 +144,17 @@ impl Route {
             set.push(format!("wheels.{wheel}profile='{}'", path.display()));
         }
         for own in &worn.wedges {
-            for (face, depth) in ["column", "slope"].into_iter().zip(own.depths) {
+            for (face, depth) in FACES.into_iter().zip(own.depths) {
                 set.push(format!("{}.{face}_wear=\"{:e} mm\"", own.key(), 1e3 * depth));
+            }
+            for map in own.maps() {
+                set.push(format!(
+                    "{}.{}_face.{}='{}'",
+                    own.key(),
+                    map.face,
+                    map.key,
+                    placed(&map.file).display()
+                ));
             }
         }
         set

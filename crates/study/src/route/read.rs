@@ -4,13 +4,15 @@ use std::path::Path;
 
 use input::file::{Expected, read_text};
 use input::{FileType, limits};
+use quantity::Kind;
 
-use super::{Route, RoutePart, WedgeLaw, WheelWear, car_of};
+use super::{Route, RoutePart, WheelWear, car_of};
 use crate::case::CaseError;
 use crate::case::name;
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{CaseSection, Names, Range};
 use crate::case::tree::{self, NodeValue, TableNode};
+use crate::damage::SERVICE;
 use crate::design::{case_source, settings};
 
 const KEYS: [&str; 11] = [
@@ -31,8 +33,6 @@ const WHEELS: Names<WheelWear> = &[
     ("each", WheelWear::Each),
     ("none", WheelWear::Nothing),
 ];
-/// The service of a route that says none: 100,000 miles, m.
-const SERVICE: f64 = 1e5 * 1_609.344;
 /// Shares may miss 1 by this much, as rounded ones do.
 const ROUNDED: f64 = 0.005;
 
@@ -110,7 +110,7 @@ pub(super) fn text(file: &str, text: &str, folder: &Path) -> Result<Route, CaseE
     let wedges = match tree.entry("wedges") {
         Some(_) => top
             .section("wedges", &mut problems)
-            .map(|own| WedgeLaw::read(&own, &mut problems)),
+            .map(|own| wedge_law(&own, &mut problems)),
         None => None,
     };
     let set = match tree.entry("set") {
@@ -158,6 +158,24 @@ pub(super) fn text(file: &str, text: &str, folder: &Path) -> Result<Route, CaseE
     car_of(&route.source, &[])?;
     try_parts(&route, &tree)?;
     Ok(route)
+}
+
+/// Returns the settings of the law by which wedges wear; what is left out is that of the case.
+fn wedge_law(section: &CaseSection<'_>, problems: &mut Problems) -> Vec<String> {
+    section.allow(&["coefficient", "hardness", "counterface"], &[], problems);
+    let given = |key: &str| section.table.get(key).is_some();
+    let mut set = Vec::new();
+    for (key, example) in [("coefficient", "1e-4"), ("counterface", "1.0")] {
+        if given(key) {
+            let found = section.number(key, Range::NotNegative, example, problems);
+            set.extend(found.map(|own| format!("damage.wedge_{key}={own:e}")));
+        }
+    }
+    if given("hardness") {
+        let found = section.quantity("hardness", Kind::Pressure, Range::Positive, problems);
+        set.extend(found.map(|own| format!("damage.wedge_hardness=\"{:e} Pa\"", own.to_si())));
+    }
+    set
 }
 
 /// Tries each track and each season on the car; mistakes are shown in the route.

@@ -7,18 +7,20 @@ use serde::{Deserialize, Serialize};
 
 use super::worn::{WornProfile, WornWedge};
 use super::{Route, RouteRun, WheelWear, Worn};
+use wedge::parameters::Wear;
+
 use crate::car::CarCase;
+use crate::car::statistics::SIDES;
 use crate::car::summary::CarSummary;
-use crate::damage::{PlaceDamage, RailDamage, WheelDamage};
+use crate::damage::{PlaceDamage, RailDamage, SERVICE, WheelDamage, of_service};
 use crate::summary::{RunSummary, SummaryValue};
+use crate::wear::mounted::{FaceGrowth, FaceMaps, FacePlan, WedgeLaw};
 
 /// The schema's name and version.
 const SCHEMA: &str = "wedgelab.route/1";
 /// Places of summed profiles are at multiples of this, to both sides up to [`REACH`] of them, m.
 const PLACE: f64 = 1e-3;
 const REACH: i32 = 100;
-/// The distance of wheels' numbers: 100,000 miles, m.
-const OF_WHEELS: f64 = 1e5 * 1_609.344;
 /// A step that wears a wheel deeper than this, or a wedge's rise higher, is called long, m.
 const LONG: [f64; 2] = [0.3e-3, 3e-3];
 /// A route does not go on from a step that wears a wheel deeper than this, or lifts a wedge higher, m: its
@@ -109,8 +111,8 @@ pub struct RouteWear<'r> {
     base: CarCase,
     /// Depths of wheels over the places, m.
     wheels: BTreeMap<String, Vec<f64>>,
-    /// Depths of wedges, column and slope, m.
-    wedges: BTreeMap<String, [f64; 2]>,
+    /// Wear of wedges at column and slope.
+    wedges: BTreeMap<String, [FaceMaps; 2]>,
     /// The outcome so far.
     pub summary: RouteSummary,
     /// Why it cannot go on, if the last step is too long.
@@ -119,23 +121,6 @@ pub struct RouteWear<'r> {
 
 fn places() -> impl Iterator<Item = f64> {
     (-REACH..=REACH).map(|k| PLACE * f64::from(k))
-}
-
-/// Returns a way of service (m) in miles or kilometers.
-fn of_service(si: f64, units: Units) -> SummaryValue {
-    let (unit, name) = match units {
-        Units::Us => (1_609.344, "mi"),
-        Units::Si => (1e3, "km"),
-    };
-    SummaryValue {
-        value: si / unit,
-        unit: name.to_owned(),
-    }
-}
-
-/// Returns a number of a summary in SI.
-fn si(own: &SummaryValue, kind: Kind, units: Units) -> f64 {
-    own.value / kind.from_si(units)
 }
 
 /// Adds damage over a profile times a share to that at the places; numbers in units of the summary. What is
@@ -215,7 +200,7 @@ impl<'r> RouteWear<'r> {
             service: of_service(route.service, units),
             warnings: Vec::new(),
             steps: Vec::new(),
-            assumptions: assumptions(route),
+            assumptions: assumptions(route, &base.damage.wedges),
         };
         Self {
             route,
@@ -252,21 +237,41 @@ impl<'r> RouteWear<'r> {
                 }
             }
             WheelWear::Mean => {
-                if let Some(own_depths) = self.wheels.get("") {
+                let alike = own
+                    .wheels
+                    .iter()
+                    .flatten()
+                    .all(|other| *other == own.wheels[0][0]);
+                let mean = self.wheels.get("").map(|own| depths(own));
+                if let (Some(depths), true) = (&mean, alike) {
                     worn.profiles
-                        .push(WornProfile::new("", &own.wheels[0][0], &depths(own_depths)));
+                        .push(WornProfile::new("", &own.wheels[0][0], depths));
+                } else if let Some(depths) = &mean {
+                    for (axle, pair) in (1..).zip(&own.wheels) {
+                        for (side, profile) in SIDES.into_iter().zip(pair) {
+                            let wheel = format!("axle_{axle}.{side}");
+                            worn.profiles.push(WornProfile::new(&wheel, profile, depths));
+                        }
+                    }
                 }
             }
         }
         worn.wedges = self
             .wedges
             .iter()
-            .map(|(name, depths)| WornWedge {
-                name: name.clone(),
-                depths: *depths,
-            })
+            .filter_map(|(name, maps)| self.worn_wedge(name, maps))
             .collect();
         worn
+    }
+
+    fn worn_wedge(&self, name: &str, maps: &[FaceMaps; 2]) -> Option<WornWedge> {
+        let own = self.wedge(name)?;
+        let plans = FacePlan::of(own);
+        Some(WornWedge {
+            name: name.to_owned(),
+            depths: [own.wear.column + maps[0].both(), own.wear.slope + maps[1].both()],
+            beyond: [0, 1].map(|face| maps[face].beyond(&plans[face])),
+        })
     }
 
     /// Takes the runs of the next step along.
@@ -346,13 +351,14 @@ impl<'r> RouteWear<'r> {
             };
             (name, damage)
         });
-        let wedges = self.wedges.iter().map(|(name, [column, slope])| {
+        let wedges = self.wedges.iter().filter_map(|(name, maps)| {
+            let [column, slope] = self.worn_wedge(name, maps)?.depths;
             let depth = WedgeDepth {
-                column: value(*column, Kind::Length),
-                slope: value(*slope, Kind::Length),
-                rise: value(self.rise(name, [*column, *slope]), Kind::Length),
+                column: value(column, Kind::Length),
+                slope: value(slope, Kind::Length),
+                rise: value(self.rise(name, [column, slope]), Kind::Length),
             };
-            (name.clone(), depth)
+            Some((name.clone(), depth))
         });
         let step = RouteStep {
             service: [number, number + 1.0].map(|own| of_service(own * part, units)),
@@ -386,7 +392,7 @@ impl<'r> RouteWear<'r> {
     /// Wears wheels over a way, m.
     fn wear_wheels(&mut self, sums: &BTreeMap<String, Sum>, way: f64) {
         let length = Kind::Length.from_si(self.summary.units);
-        let by = way / (OF_WHEELS * length);
+        let by = way / (SERVICE * length);
         let (share, each) = match self.route.wheels {
             WheelWear::Nothing => return,
             WheelWear::Each => (by, true),
@@ -421,45 +427,56 @@ impl<'r> RouteWear<'r> {
 
     /// Wears wedges over a way, m.
     fn wear_wedges(&mut self, runs: &[OfRun], way: f64) {
-        let Some(law) = self.route.wedges else { return };
-        let mut grown: BTreeMap<String, [f64; 2]> = BTreeMap::new();
+        if self.route.wedges.is_none() {
+            return;
+        }
+        let ratio = self.base.damage.wedges.counterface;
+        let mut grown: BTreeMap<String, [(FacePlan, FaceGrowth); 2]> = BTreeMap::new();
+        let mut others = Vec::new();
         for OfRun { run, summary } in runs {
-            let units = summary.units;
-            let [from, to] = summary
-                .distance
-                .each_ref()
-                .map(|own| si(own, Kind::Distance, units));
-            if to <= from {
-                continue;
-            }
-            for name in summary.wedge_losses.keys() {
-                let Some((friction, areas)) = self.faces(name) else {
-                    continue;
-                };
-                let own = grown.entry(name.clone()).or_default();
-                for (face, which) in ["column", "slope"].into_iter().enumerate() {
-                    let entry = summary
-                        .ledger
-                        .entries
-                        .get(&format!("{name}_{which}_friction_loss"));
-                    let energy = entry.map_or(0.0, |own| si(own, Kind::Energy, units));
-                    own[face] +=
-                        run.share * law.depth(energy * way / (to - from), friction[face], areas[face]);
+            let share = run.share * way / SERVICE;
+            for (name, worn) in summary.wedge_wear.iter().flat_map(|own| &own.wedges) {
+                let Some(wedge) = self.wedge(name) else { continue };
+                let own = grown.entry(name.clone()).or_insert_with(|| {
+                    FacePlan::of(wedge).map(|plan| {
+                        let growth = plan.growth();
+                        (plan, growth)
+                    })
+                });
+                for ((plan, growth), face) in own.iter_mut().zip([&worn.column, &worn.slope]) {
+                    let fits = face.pace(share, summary.units, |pace| growth.add(plan, pace, ratio));
+                    if !fits {
+                        others.push(&run.name);
+                    }
                 }
             }
         }
-        if grown.values().flatten().all(|own| *own == 0.0) {
+        if let Some(name) = others.first() {
+            self.warn(format!(
+                "{name}: its wedges have other points than those of the first track, and do not wear in it"
+            ));
+        }
+        let mut most: f64 = 0.0;
+        let mut moves = false;
+        for (name, faces) in &grown {
+            let own = self
+                .wedges
+                .entry(name.clone())
+                .or_insert_with(|| faces.each_ref().map(|(plan, _)| plan.unworn()));
+            let before = own.each_ref().map(FaceMaps::both);
+            for (maps, (plan, growth)) in own.iter_mut().zip(faces) {
+                maps.grow(plan, growth);
+            }
+            let after = own.each_ref().map(FaceMaps::both);
+            let grown = [after[0] - before[0], after[1] - before[1]];
+            moves |= grown != [0.0; 2];
+            most = most.max(self.rise(name, grown));
+        }
+        if !moves {
             self.warn(
                 "wedges do not wear: their friction takes nothing, or they have no mass and no faces"
                     .to_owned(),
             );
-        }
-        let mut most: f64 = 0.0;
-        for (name, [column, slope]) in grown {
-            most = most.max(self.rise(&name, [column, slope]));
-            let own = self.wedges.entry(name).or_default();
-            own[0] += column;
-            own[1] += slope;
         }
         self.see_length(1, most, "lets a wedge rise by");
         if most > LONG[1] {
@@ -480,24 +497,14 @@ impl<'r> RouteWear<'r> {
         self.base.parameters.trucks[truck].wedges.get(place)
     }
 
-    /// Returns friction and areas (m²) of the faces of a wedge, column and slope.
-    fn faces(&self, name: &str) -> Option<([f64; 2], [f64; 2])> {
-        let own = self.wedge(name)?;
-        let friction = [own.column_friction.coefficient, own.slope_friction.coefficient];
-        let column = own.width * own.height;
-        Some((friction, [column, column / libm::cos(own.angle)]))
-    }
-
     /// Returns the rise (m) of a wedge by depths at column and slope, m.
     fn rise(&self, name: &str, [column, slope]: [f64; 2]) -> f64 {
-        self.wedge(name).map_or(0.0, |own| {
-            let (sine, cosine) = libm::sincos(own.angle);
-            (column * cosine + slope) / sine
-        })
+        let by = |own: &truck::Wedge| Wear { column, slope }.rise(own.rise_angles());
+        self.wedge(name).map_or(0.0, by)
     }
 }
 
-fn assumptions(route: &Route) -> Vec<String> {
+fn assumptions(route: &Route, law: &WedgeLaw) -> Vec<String> {
     let mut all = vec![
         "Every track is passed as in its run again and again; depths of a step are those of its start's pace."
             .to_owned(),
@@ -512,12 +519,13 @@ fn assumptions(route: &Route) -> Vec<String> {
     ];
     all.push(match &route.wedges {
         None => "Wedges do not wear: the route has no [wedges].".to_owned(),
-        Some(law) => format!(
-            "Wedges wear by the energy of their friction with K = {:e} on a hardness of {:.0} MPa, one depth \
-             a face; column and pocket wear {} times what the wedge does. K is a guess, known to an order of \
-             magnitude.",
-            law.coefficient,
-            1e-6 * law.hardness,
+        Some(_) => format!(
+            "Wedges wear by the energy of their friction with K = {:e} on a hardness of {:.0} MPa; column \
+             and pocket wear {} times what the wedge does. K is a guess, known to an order of magnitude. \
+             Where on its faces a wedge wears is that of each step's start, evened out by the springs of \
+             the faces as the step wears on.",
+            law.archard.coefficient,
+            1e-6 * law.archard.hardness,
             law.counterface
         ),
     });

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use wedge::face::DepthMap;
+use wedge::outputs::FACES;
 use wheelrail::profile::Profile;
 
 /// Distance of the points of a worn profile, m.
@@ -30,11 +32,55 @@ pub struct WornProfile {
 pub struct WornWedge {
     /// Its name, such as `truck_1_leading_left`.
     pub name: String,
-    /// Depths of column and slope, of both partners together, m.
+    /// Mean depths of column and slope, of both partners together, m.
     pub depths: [f64; 2],
+    /// What is beyond them at column and slope: on the wedge's face and on its counterface.
+    pub beyond: [[Option<DepthMap>; 2]; 2],
+}
+
+/// A map of a worn face, as a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WornMap<'m> {
+    /// `column` or `slope`.
+    pub face: &'static str,
+    /// Its key in the face's section.
+    pub key: &'static str,
+    /// The name of its file.
+    pub file: String,
+    map: &'m DepthMap,
+}
+
+impl WornMap<'_> {
+    /// Returns the text of its file.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut text = "up [mm], across [mm], depth [mm]\n".to_owned();
+        for point in self.map.points() {
+            let [up, across, depth] = point.map(|own| 1e3 * own);
+            // Writing into a string does not fail.
+            let _ = writeln!(text, "{up}, {across}, {depth}");
+        }
+        text
+    }
 }
 
 impl WornWedge {
+    /// Returns its maps.
+    pub fn maps(&self) -> impl Iterator<Item = WornMap<'_>> {
+        let faces = FACES.into_iter().zip(&self.beyond);
+        faces.flat_map(move |(face, own)| {
+            let keys = [("wedge_wear", ""), ("counterface_wear", "_counterface")];
+            keys.into_iter().zip(own).filter_map(move |((key, of), map)| {
+                Some(WornMap {
+                    face,
+                    key,
+                    file: format!("{}_{face}{of}.csv", self.name),
+                    map: map.as_ref()?,
+                })
+            })
+        })
+    }
+
     /// Returns the table of a case that has its keys.
     #[must_use]
     pub fn key(&self) -> String {

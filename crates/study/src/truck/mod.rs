@@ -25,7 +25,9 @@ use crate::case::model::{Model, model_case};
 use crate::case::problem::Problems;
 use crate::case::section::Range;
 use crate::case::tree::TableNode;
+use crate::damage;
 use crate::reader::{CaseReader, CaseText, check_motions};
+use crate::wear::mounted::WedgeLaw;
 pub use ::truck::WEDGE_NAMES;
 pub use sections::{Condition, Load};
 
@@ -40,6 +42,8 @@ pub struct TruckCase {
     pub parameters: Parameters,
     /// Time for which its motions are held before time zero, s.
     pub settle: f64,
+    /// The law by which its wedges wear.
+    pub wear: WedgeLaw,
     /// The settings of the run. Its start is one of the parameters.
     pub simulation: Simulation,
     text: CaseText,
@@ -90,6 +94,7 @@ fn read(r: &mut CaseReader<'_>, default_name: &str) -> Option<TruckCase> {
     sections::car_body(r, &mut parameters, load, lading);
     sections::check_something_moves(r, &parameters);
     let settle = sections::start(r, &mut parameters);
+    let wear = damage::read_of_wedges(r);
     let simulation = simulation(r);
     let text = r.finish("a truck's case");
     Some(TruckCase {
@@ -97,6 +102,7 @@ fn read(r: &mut CaseReader<'_>, default_name: &str) -> Option<TruckCase> {
         title,
         parameters,
         settle,
+        wear,
         simulation,
         text,
     })

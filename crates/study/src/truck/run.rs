@@ -27,8 +27,9 @@ use crate::result::RunResult;
 use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
 };
-use crate::run_error::{check_finite, check_length};
+use crate::run_error::{check_finite, check_length, damaged};
 use crate::summary::{Stopped, SummaryValue};
+use crate::wear::mounted::{Over, SavedWork, WedgesWork};
 use crate::{geometry, wedge_faces, wedge_rise};
 
 /// The result of a run.
@@ -39,6 +40,8 @@ const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// of a loaded half car.
 const MOST_FORCE: f64 = 5e6 * POUND_FORCE;
 
+/// The number of cycles of the wear of wedges.
+const CYCLES: f64 = 1e6;
 /// Columns that the summary reads row by row.
 const KEPT: [&str; 7] = [
     "warp_angle",
@@ -61,6 +64,10 @@ pub struct TruckRecorder {
     contacts: Option<ContactTable>,
     /// The bodies of the wedges, and of their halves, with the areas of column and slope, m².
     wedges: Vec<(usize, [f64; 2])>,
+    /// What wears the wedges, in the whole cycles.
+    work: WedgesWork,
+    /// The time of the row before.
+    before: f64,
     pub(super) losses: LossRecorder,
 }
 
@@ -73,6 +80,9 @@ pub struct TruckCounts {
     pub losses: LossCounts,
     /// The rows, as far as the summary needs them.
     pub table: SavedRows,
+    /// What wears the wedges.
+    #[serde(default)]
+    pub work: SavedWork,
 }
 
 /// Returns period (s) and beginning (s) of a motion, if it is periodic or a part of it is.
@@ -120,6 +130,8 @@ impl RunCase for TruckCase {
                 counts: TruckCounts::default(),
                 contacts: None,
                 wedges: wedges(&self.parameters),
+                work: WedgesWork::new(table.system(), &[("", &self.parameters.wedges)]),
+                before: 0.0,
                 losses: LossRecorder::new(table.system(), super::energies::window(self)),
                 table,
             },
@@ -198,6 +210,7 @@ impl Recorder for TruckRecorder {
         TruckCounts {
             losses: self.losses.counts(),
             table: self.rows.saved(),
+            work: self.work.saved(),
             ..self.counts.clone()
         }
     }
@@ -215,6 +228,10 @@ impl Recorder for TruckRecorder {
         }
         self.losses.restore(counts.losses.clone(), time)?;
         self.rows.restore(std::mem::take(&mut counts.table), times)?;
+        if !self.work.restore(std::mem::take(&mut counts.work)) {
+            return damaged("counts.work", "sums of other wedges", "those of the case's");
+        }
+        self.before = times.last().copied().unwrap_or_default();
         self.counts = counts;
         Ok(())
     }
@@ -256,6 +273,14 @@ impl Recorder for TruckRecorder {
         if let Some(contacts) = &mut self.contacts {
             contacts.take(&observation, row.contact_states);
         }
+        if let Some(([start, end], _)) = self.window
+            && (start..=end).contains(&row.time)
+        {
+            let [_, _, _, quadratures] = system.layout().split(row.x);
+            let time = row.time - self.before.max(start);
+            self.work.take(&observation, quadratures, [time, 0.0]);
+        }
+        self.before = row.time;
         Ok(system.ledger_entries(&observation, row.start_energy))
     }
 }
@@ -296,6 +321,11 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     let wedge_rise = wedge_rise::summary(&risen, units);
     let named = wedge_faces::named(&[("", &run.case.parameters.wedges)]);
     warnings.extend(wedge_faces::warnings(&named));
+    let wedge_wear = run.recorder.window.and_then(|([start, end], cycles)| {
+        let over = Over::Cycles(CYCLES, (end - start) / f64::from(cycles));
+        let wedges = [("", &run.case.parameters.wedges)];
+        run.recorder.work.summary(&wedges, &run.case.wear, (&over, units))
+    });
     let column = |name: &str| table.column(name);
     let summary = TruckSummary {
         schema: SCHEMA.to_owned(),
@@ -314,6 +344,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
             .map(|(name, own)| (name.to_owned(), JamMargins::new(&own, 0.0, units)))
             .collect(),
         wedge_rise,
+        wedge_wear,
         statics: run.recorder.table.static_table(units),
         extremes: table.summary_extremes(units),
         energy: super::energies::of(&run, &column),

@@ -12,6 +12,7 @@ use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::statics::StaticTable;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, ledger, run_summary};
+use crate::wear::mounted::WedgesWorn;
 use crate::wedge_rise::RiseSummary;
 
 /// The schema's name and version.
@@ -50,6 +51,9 @@ pub struct TruckSummary {
     /// Rises of the wedges at the start, by their names.
     #[serde(default)]
     pub wedge_rise: BTreeMap<String, RiseSummary>,
+    /// Wear of the wedges; none where they are massless, or no motion repeats.
+    #[serde(default)]
+    pub wedge_wear: Option<WedgesWorn>,
     /// The truck at the start: its coils and wedges.
     #[serde(default)]
     pub statics: StaticTable,

@@ -77,8 +77,15 @@ impl Lattice {
         &self.places
     }
 
-    /// Lays down what a point does while it is moved up and across (m) from its place on the wedge.
-    pub(super) fn lay(&self, laid: &mut Laid<PointWork>, point: usize, moved: [f64; 2], work: &PointWork) {
+    /// Lays down what a point does while it is moved up and across (m) from its place on the wedge: `add`
+    /// gets nodes with their shares.
+    pub(super) fn lay<T: Default>(
+        &self,
+        laid: &mut Laid<T>,
+        point: usize,
+        moved: [f64; 2],
+        mut add: impl FnMut(&mut T, f64),
+    ) {
         let shares = [0, 1].map(|axis| {
             let cell = self.cells[point][axis].map(|edge| edge + moved[axis]);
             let [low, high] = &mut laid.reach[axis];
@@ -88,10 +95,14 @@ impl Lattice {
         let [up, across] = shares;
         for (row, by_row) in &up {
             for (column, by_column) in &across {
-                let own = laid.nodes.entry([*row, *column]).or_default();
-                own.add(work, by_row * by_column);
+                add(laid.nodes.entry([*row, *column]).or_default(), by_row * by_column);
             }
         }
+    }
+
+    /// Returns the area over which something is laid, m².
+    pub(super) fn area<T>(&self, laid: &Laid<T>) -> f64 {
+        laid.reach.iter().map(|[low, high]| high - low).product()
     }
 
     /// Returns the shares of a cell (m) by node.
@@ -115,7 +126,7 @@ impl Lattice {
 
     /// Returns the map of depths (m) of volumes (m³) that have been laid down, over those of a map before;
     /// none if there are neither.
-    fn map(&self, volumes: &Laid<f64>, before: Option<&DepthMap>) -> Option<DepthMap> {
+    pub(super) fn map(&self, volumes: &Laid<f64>, before: Option<&DepthMap>) -> Option<DepthMap> {
         if volumes.nodes.is_empty() {
             return before.cloned();
         }
@@ -160,8 +171,8 @@ impl Lattice {
 }
 
 impl Laid<f64> {
-    /// Adds volumes of work.
-    fn add(&mut self, work: &Laid<PointWork>, volume: impl Fn(&PointWork) -> f64) {
+    /// Adds volumes of another.
+    pub(super) fn add<T>(&mut self, work: &Laid<T>, volume: impl Fn(&T) -> f64) {
         for (node, own) in &work.nodes {
             *self.nodes.entry(*node).or_default() += volume(own);
         }
@@ -171,7 +182,7 @@ impl Laid<f64> {
     }
 
     /// Returns the sum of all volumes, m³.
-    fn total(&self) -> f64 {
+    pub(super) fn total(&self) -> f64 {
         self.nodes.values().fold(0.0, |sum, volume| sum + volume)
     }
 }

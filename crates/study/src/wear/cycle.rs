@@ -174,7 +174,7 @@ impl CycleWork {
                 let moved = [UPWARDS[number] * along - up, across - side];
                 let mut work = PointWork::default();
                 work.add(&of_point(point), duration);
-                lattice.lay(laid, place, moved, &work);
+                lattice.lay(laid, place, moved, |own, share| own.add(&work, share));
             }
         }
     }

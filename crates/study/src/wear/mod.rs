@@ -17,6 +17,7 @@ pub mod archard;
 pub mod counterface;
 pub mod cycle;
 pub mod energy;
+pub mod mounted;
 
 use std::ops::ControlFlow;
 

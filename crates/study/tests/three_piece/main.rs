@@ -11,3 +11,4 @@ mod reproducible;
 mod rigs;
 mod rise;
 mod thesis_wedge;
+mod wear;

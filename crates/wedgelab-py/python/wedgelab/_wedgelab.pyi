@@ -405,6 +405,7 @@ class NativeWheelset:
         radii: list[float],
         shear_modulus: float,
         poisson: float,
+        strips: bool,
     ) -> NativeWheelset: ...
     def free_rolling(
         self, given: list[_Floats], creep: str, cells: int

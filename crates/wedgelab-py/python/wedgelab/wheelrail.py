@@ -25,6 +25,7 @@ __all__ = [
     "Contact",
     "CreepForces",
     "CreepLaw",
+    "PatchForm",
     "Positions",
     "Profile",
     "Track",
@@ -36,6 +37,7 @@ __all__ = [
 ]
 
 CreepLaw = Literal["linear", "shen_hedrick_elkins", "polach", "fastsim"]
+PatchForm = Literal["ellipse", "strips"]
 _PATCHES = 9
 _STEEL = 82e9
 _POISSON = 0.28
@@ -253,11 +255,15 @@ class Wheelset:
         radius: QuantityLike | tuple[QuantityLike, QuantityLike] = "18 in",
         shear_modulus: float = _STEEL,
         poisson: float = _POISSON,
+        patch: PatchForm = "ellipse",
     ) -> None:
         """Gauge is measured ``gauge_depth`` below the datum of the rail, z = 0 of its points (its top, for nominal ones); the
         tape circles of the wheels, of the nominal ``radius``, are ``tape_distance`` apart; ``shear_modulus`` in Pa. Rails stand
         as their profile is: incline nominal ones (``Profile.nominal("136re").inclined(1 / 40)``). ``wheel``, ``rail`` and ``radius`` may
-        be pairs: left, right."""
+        be pairs: left, right. ``patch`` is "ellipse" (Hertz) or "strips" (half-spaces on strips along the rolling direction, for
+        patches that are no ellipses; "fastsim" takes these strips then)."""
+        if patch not in get_args(PatchForm):
+            raise WheelRailError(f"the patch is {patch!r}; write \"ellipse\" or \"strips\"")
         wheels, rails = _sides(wheel, "wheel"), _sides(rail, "rail")
         left, right = radius if isinstance(radius, tuple) else (radius, radius)
         self._native = _native.NativeWheelset(
@@ -269,6 +275,7 @@ class Wheelset:
             [si(left, "length", "radius"), si(right, "length", "radius")],
             si(shear_modulus, "pressure", "shear_modulus"),
             si(poisson, "dimensionless", "poisson"),
+            patch == "strips",
         )
 
     def contact(

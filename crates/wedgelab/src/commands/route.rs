@@ -27,10 +27,10 @@ use crate::progress::Steady;
 ///
 /// A route file names a car, tracks and seasons with their shares of the distance, and what each sets: track,
 /// speed, lading, friction. Every track is run in every season; damage of a mile is the mean by the shares.
-/// The service is cut into steps, after each of which wheels have their worn profiles and wedges their
-/// depths, and all is run again. Writes route.json, route.csv, route.svg, route.png, route.txt; runs/ holds
-/// the summary and case of each run, worn/ the profiles. The same command continues a route that was stopped
-/// or killed.
+/// The service is cut into steps, after each of which wheels have their worn profiles and wedges their depth
+/// maps, and all is run again. Writes route.json, route.csv, route.svg, route.png, route.txt; runs/ holds the
+/// summary and case of each run, worn/ profiles and depth maps. The same command continues a route that was
+/// stopped or killed.
 ///
 /// Coefficients of wear and fatigue are remembered from publications, that of wedges is a guess: they rank
 /// cars and tracks.
@@ -70,9 +70,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let progress = Steady::new("runs", all, 0, arguments.quiet);
     for step in 1..=route.steps {
         let worn = wear.worn();
-        let profiles = path.join("worn").join(format!("step_{step}"));
-        write_profiles(&worn, &profiles)?;
-        let set = route.worn_settings(&worn, &profiles);
+        let files = path.join("worn").join(format!("step_{step}"));
+        write_worn(&worn, &files)?;
+        let set = route.worn_settings(&worn, &files);
         let folder = path.join("runs").join(format!("step_{step}"));
         let cases = runs.iter().map(|run| route.case(run.of, &set));
         let cases: Vec<CarCase> = cases.collect::<Result<_, _>>()?;
@@ -120,17 +120,21 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
 }
 
-/// Writes the profiles of worn wheels.
-fn write_profiles(worn: &Worn, path: &Path) -> Result<(), Failure> {
-    if worn.profiles.is_empty() {
+/// Writes the profiles of worn wheels and the maps of worn wedges.
+fn write_worn(worn: &Worn, path: &Path) -> Result<(), Failure> {
+    let profiles = worn.profiles.iter().map(|own| (own.file(), own.csv()));
+    let maps = worn.wedges.iter().flat_map(|own| own.maps());
+    let files: Vec<(String, String)> = profiles
+        .chain(maps.map(|own| (own.file.clone(), own.csv())))
+        .collect();
+    if files.is_empty() {
         return Ok(());
     }
-    let names: Vec<String> = worn.profiles.iter().map(|own| own.file()).collect();
-    let listed: Vec<&str> = names.iter().map(String::as_str).collect();
+    let listed: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     let folder = Folder::check(path, &listed, true)?;
     folder.write(|all| {
-        for (own, name) in worn.profiles.iter().zip(&names) {
-            all.add(name, |out| out.write_all(own.csv().as_bytes()))?;
+        for (name, text) in &files {
+            all.add(name, |out| out.write_all(text.as_bytes()))?;
         }
         Ok(())
     })?;

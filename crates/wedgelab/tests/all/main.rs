@@ -19,6 +19,7 @@ mod lock_up;
 mod nucars;
 mod nucars_wedges;
 mod report;
+mod route;
 mod run_report;
 mod stability_vary;
 mod truck_commands;
