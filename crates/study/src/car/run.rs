@@ -374,11 +374,8 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let damage = run.recorder.damage.as_ref();
     let damage = damage.and_then(|own| own.summary(Weighed { weight, units }));
     let over = Over::Distance(SERVICE);
-    let wedge_wear = run.recorder.wedges.summary(
-        &wedges_of(&run.case.parameters),
-        &run.case.damage.wedges,
-        (&over, units),
-    );
+    let law = &run.case.damage.wedges;
+    let wedge_wear = run.recorder.wedges.summary(law, (&over, units));
     let counts = &run.recorder.counts;
     let shares = counts.locked.iter().map(|own| *own as f64 / counts.rows as f64);
     let wedges = run.recorder.points.iter().map(|(wedge, _)| wedge.clone());
@@ -434,12 +431,9 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
 
 /// Returns the wedges of both trucks at the start.
 fn wedges_at_start(run: &Run<CarCase>) -> [AtStart<'_>; 2] {
-    let [front, rear] = &run.case.parameters.trucks;
-    let [of_front, of_rear] = run.recorder.table.wedges_at_start();
-    [
-        ("truck_1_", &front.wedges, of_front),
-        ("truck_2_", &rear.wedges, of_rear),
-    ]
+    let loads = run.recorder.table.wedges_at_start();
+    let wedges = wedges_of(&run.case.parameters);
+    [0, 1].map(|truck| (wedges[truck].0, wedges[truck].1, &loads[truck]))
 }
 
 /// Returns whether a distance along a track (m) is in a full curve: its curvature does not change there.

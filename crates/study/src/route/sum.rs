@@ -219,41 +219,28 @@ impl<'r> RouteWear<'r> {
         let car::Wheels::OnRails(own) = &self.base.parameters.wheels else {
             return worn;
         };
-        let depths = |own: &[f64]| -> Vec<[f64; 2]> { places().zip(own).map(|(y, own)| [y, *own]).collect() };
-        match self.route.wheels {
-            WheelWear::Nothing => {}
-            WheelWear::Each => {
-                for (name, own_depths) in &self.wheels {
-                    let parts = name.strip_prefix("axle_").and_then(|own| own.split_once('_'));
-                    let Some((axle, side)) = parts else { continue };
-                    let number = axle.parse::<usize>().ok().and_then(|axle| axle.checked_sub(1));
-                    let Some(pair) = number.and_then(|w| own.wheels.get(w)) else {
-                        continue;
-                    };
-                    let profile = &pair[usize::from(side == "right")];
-                    let wheel = format!("axle_{axle}.{side}");
-                    worn.profiles
-                        .push(WornProfile::new(&wheel, profile, &depths(own_depths)));
-                }
+        let first = &own.wheels[0][0];
+        let each = self.route.wheels == WheelWear::Each;
+        // One profile for all where all are worn alike.
+        let alike = !each && own.wheels.iter().flatten().all(|other| other == first);
+        let mut wheels = Vec::new();
+        if alike {
+            wheels.push((String::new(), first));
+        } else {
+            for (axle, pair) in (1..).zip(&own.wheels) {
+                let sides = SIDES.into_iter().zip(pair);
+                wheels.extend(sides.map(|(side, profile)| (format!("axle_{axle}.{side}"), profile)));
             }
-            WheelWear::Mean => {
-                let alike = own
-                    .wheels
-                    .iter()
-                    .flatten()
-                    .all(|other| *other == own.wheels[0][0]);
-                let mean = self.wheels.get("").map(|own| depths(own));
-                if let (Some(depths), true) = (&mean, alike) {
-                    worn.profiles
-                        .push(WornProfile::new("", &own.wheels[0][0], depths));
-                } else if let Some(depths) = &mean {
-                    for (axle, pair) in (1..).zip(&own.wheels) {
-                        for (side, profile) in SIDES.into_iter().zip(pair) {
-                            let wheel = format!("axle_{axle}.{side}");
-                            worn.profiles.push(WornProfile::new(&wheel, profile, depths));
-                        }
-                    }
-                }
+        }
+        for (wheel, profile) in wheels {
+            let name = if each {
+                wheel.replace('.', "_")
+            } else {
+                String::new()
+            };
+            if let Some(depths) = self.wheels.get(&name) {
+                let depths: Vec<[f64; 2]> = places().zip(depths).map(|(y, own)| [y, *own]).collect();
+                worn.profiles.push(WornProfile::new(&wheel, profile, &depths));
             }
         }
         worn.wedges = self
@@ -265,13 +252,19 @@ impl<'r> RouteWear<'r> {
     }
 
     fn worn_wedge(&self, name: &str, maps: &[FaceMaps; 2]) -> Option<WornWedge> {
-        let own = self.wedge(name)?;
-        let plans = FacePlan::of(own);
+        let plans = FacePlan::of(self.wedge(name)?);
         Some(WornWedge {
             name: name.to_owned(),
-            depths: [own.wear.column + maps[0].both(), own.wear.slope + maps[1].both()],
+            depths: self.depths(name, maps)?,
             beyond: [0, 1].map(|face| maps[face].beyond(&plans[face])),
         })
+    }
+
+    /// Returns the mean depths (m) of a wedge at column and slope, with those that the case begins with.
+    fn depths(&self, name: &str, maps: &[FaceMaps; 2]) -> Option<[f64; 2]> {
+        let before = self.wedge(name)?.wear;
+        let [column, slope] = maps.each_ref().map(FaceMaps::both);
+        Some([before.column + column, before.slope + slope])
     }
 
     /// Takes the runs of the next step along.
@@ -352,7 +345,7 @@ impl<'r> RouteWear<'r> {
             (name, damage)
         });
         let wedges = self.wedges.iter().filter_map(|(name, maps)| {
-            let [column, slope] = self.worn_wedge(name, maps)?.depths;
+            let [column, slope] = self.depths(name, maps)?;
             let depth = WedgeDepth {
                 column: value(column, Kind::Length),
                 slope: value(slope, Kind::Length),

@@ -323,8 +323,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     warnings.extend(wedge_faces::warnings(&named));
     let wedge_wear = run.recorder.window.and_then(|([start, end], cycles)| {
         let over = Over::Cycles(CYCLES, (end - start) / f64::from(cycles));
-        let wedges = [("", &run.case.parameters.wedges)];
-        run.recorder.work.summary(&wedges, &run.case.wear, (&over, units))
+        run.recorder.work.summary(&run.case.wear, (&over, units))
     });
     let column = |name: &str| table.column(name);
     let summary = TruckSummary {

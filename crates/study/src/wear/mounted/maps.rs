@@ -25,15 +25,14 @@ use truck::{Wedge, WedgeKind};
 #[derive(Clone, Debug)]
 pub struct FacePlan {
     /// The part of the face that each point stands for; they sum to 1.
-    weights: Vec<f64>,
+    pub(super) weights: Vec<f64>,
     area: f64,
     /// Of all points together, N/m.
     stiffness: f64,
     /// Coefficient of friction at rest.
-    pub friction: f64,
+    friction: f64,
     /// Number of such faces that wear by their mean.
-    pub count: f64,
-    places: Vec<[f64; 2]>,
+    count: f64,
     face: FaceProperties,
     lattice: Lattice,
 }
@@ -74,19 +73,23 @@ impl FacePlan {
         let frictions = [part.column_friction, part.slope_friction];
         [0, 1].map(|number| {
             let face = [&part.column_face, &part.slope_face][number].clone();
-            let (rectangle, grid) = (&rectangles[number], face.grid.points());
+            let rectangle = &rectangles[number];
             let points = face.points(rectangle, &part.contact);
             Self {
-                weights: grid.iter().map(|own| own.weight).collect(),
+                weights: face.grid.points().iter().map(|own| own.weight).collect(),
                 area: areas[number],
                 stiffness: points.iter().map(|own| own.stiffness).sum(),
                 friction: face.friction(&frictions[number]).coefficient,
                 count,
-                places: grid.iter().map(|own| rectangle.distances(own).into()).collect(),
                 lattice: Lattice::new(&face, rectangle),
                 face,
             }
         })
+    }
+
+    /// Returns the places of its points on the wedge, up and across, m.
+    pub(super) fn places(&self) -> &[[f64; 2]] {
+        self.lattice.places()
     }
 
     /// Returns the mean depth (m) of the face by an energy (J) lost at all such faces.
@@ -209,7 +212,7 @@ impl FaceMaps {
     #[must_use]
     pub fn beyond(&self, plan: &FacePlan) -> [Option<DepthMap>; 2] {
         let before = plan.face.wedge_wear.as_ref();
-        let points = plan.places.iter().zip(&self.depths).map(|([up, across], own)| {
+        let points = plan.places().iter().zip(&self.depths).map(|([up, across], own)| {
             let before = before.map_or(0.0, |map| map.depth(*up, *across));
             [*up, *across, before + own - self.face]
         });
@@ -238,7 +241,7 @@ mod tests {
     fn plan() -> (FacePlan, Vec<f64>) {
         let plan = FacePlan::of(&Parameters::new(Damping::Variable).wedges[0])[0].clone();
         let raw: Vec<f64> = plan
-            .places
+            .places()
             .iter()
             .map(|[up, across]| 1.0 + 4.0 * across + 2.0 * up)
             .collect();

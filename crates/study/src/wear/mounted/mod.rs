@@ -40,6 +40,8 @@ pub struct WedgesWork {
 #[derive(Clone, Debug)]
 struct OfWedge {
     name: String,
+    /// Those on which its rise depends ([`Wedge::rise_angles`]).
+    angles: [f64; 3],
     faces: [OfFace; FACES.len()],
 }
 
@@ -52,10 +54,7 @@ struct OfFace {
     terms: Vec<usize>,
     /// Signs of the marker's axes: up the face, and to the left.
     signs: [f64; 2],
-    /// Places of the points on the wedge, up and across, m.
-    places: Vec<[f64; 2]>,
-    /// The part of the face that each point stands for; they sum to 1.
-    weights: Vec<f64>,
+    plan: FacePlan,
     work: FaceWork,
 }
 
@@ -91,8 +90,11 @@ impl WedgesWork {
                     continue;
                 }
                 let name = format!("{prefix}{}", WEDGE_NAMES[number]);
-                let faces = [0, 1].map(|face| OfFace::new(system, (&name, wedge), face, PLACES[number][0]));
-                wedges.push(OfWedge { name, faces });
+                let [column, slope] = FacePlan::of(wedge);
+                let faces = [(0, column), (1, slope)]
+                    .map(|(face, plan)| OfFace::new(system, &name, (face, plan), PLACES[number][0]));
+                let angles = wedge.rise_angles();
+                wedges.push(OfWedge { name, angles, faces });
             }
         }
         Self {
@@ -144,38 +146,32 @@ impl WedgesWork {
 }
 
 impl OfFace {
-    fn new(system: &System, (name, wedge): (&str, &Wedge), face: usize, end: f64) -> Self {
+    fn new(system: &System, name: &str, (face, plan): (usize, FacePlan), end: f64) -> Self {
         let names = names_of_face(name, FACES[face]);
         let all = system.faces().iter().enumerate();
         let own = all.filter(|(_, mounted)| names.contains(&mounted.element.name));
         let [down, right] = reversed(face == 0, end);
-        let properties = [&wedge.column_face, &wedge.slope_face][face];
-        let part = match wedge.kind {
-            WedgeKind::Split => wedge.halves()[0].rectangles(),
-            WedgeKind::Body | WedgeKind::Massless => wedge.rectangles(),
-        };
-        let points = properties.grid.points();
-        let places: Vec<[f64; 2]> = points
-            .iter()
-            .map(|own| part[face].distances(own).into())
-            .collect();
         Self {
             numbers: own.map(|(number, _)| number).collect(),
             terms: losses_at(system, name, &[FACES[face]]),
             signs: [down, right].map(|reversed| if reversed { -1.0 } else { 1.0 }),
             work: FaceWork {
-                points: vec![0.0; places.len()],
+                points: vec![0.0; plan.places().len()],
                 ..FaceWork::default()
             },
-            weights: points.iter().map(|own| own.weight).collect(),
-            places,
+            plan,
         }
     }
 
     /// Adds what its points do in a time, s.
     fn lay(&mut self, seen: &FaceState, time: f64) {
         let (mut energy, mut force, mut moved) = (0.0, 0.0, [0.0; 2]);
-        for ((point, place), sum) in seen.points.iter().zip(&self.places).zip(&mut self.work.points) {
+        for ((point, place), sum) in seen
+            .points
+            .iter()
+            .zip(self.plan.places())
+            .zip(&mut self.work.points)
+        {
             let own = time * point.friction.loss;
             *sum += own;
             energy += own;

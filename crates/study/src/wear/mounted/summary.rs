@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
-use truck::{WEDGE_NAMES, Wedge};
 use wedge::parameters::Wear;
 
-use super::{FacePace, FacePlan, OfFace, SQUARE, WedgeLaw, WedgesWork};
+use super::{FacePace, OfFace, SQUARE, WedgeLaw, WedgesWork};
 use crate::damage::of_service;
 use crate::summary::SummaryValue;
 
@@ -56,13 +55,8 @@ pub(crate) enum Over {
 }
 
 impl WedgesWork {
-    /// Returns the summary of the wedges of trucks; none before something has moved.
-    pub(crate) fn summary(
-        &self,
-        trucks: &[(&str, &[Wedge; 4])],
-        law: &WedgeLaw,
-        (over, units): (&Over, Units),
-    ) -> Option<WedgesWorn> {
+    /// Returns the summary; none before something has moved.
+    pub(crate) fn summary(&self, law: &WedgeLaw, (over, units): (&Over, Units)) -> Option<WedgesWorn> {
         let [time, way] = self.passed;
         let (times, shown) = match over {
             Over::Distance(own) => (own / way, of_service(*own, units)),
@@ -74,28 +68,20 @@ impl WedgesWork {
         if !times.is_finite() || self.wedges.is_empty() {
             return None;
         }
-        let own = trucks.iter().flat_map(|(prefix, wedges)| {
-            WEDGE_NAMES
-                .iter()
-                .zip(wedges.iter())
-                .map(move |(name, own)| (format!("{prefix}{name}"), own))
-        });
-        let own: BTreeMap<String, &Wedge> = own.collect();
-        let wedges = self.wedges.iter().filter_map(|wedge| {
-            let of = own.get(&wedge.name)?;
-            let plans = FacePlan::of(of);
-            let [column, slope] = [0, 1].map(|face| {
-                let energy = times * wedge.faces[face].work.energy();
-                worn(&wedge.faces[face], plans[face].depth(law, energy), units)
+        let wedges = self.wedges.iter().map(|wedge| {
+            let depths = wedge.faces.each_ref().map(|face| {
+                let energy = times * face.work.energy();
+                face.plan.depth(law, energy)
             });
-            let length = Kind::Length.from_si(units);
-            let both = (1.0 + law.counterface) / length;
-            let wear = Wear {
-                column: both * column.mean_depth.value,
-                slope: both * slope.mean_depth.value,
-            };
-            let rise = SummaryValue::new(wear.rise(of.rise_angles()), Kind::Length, units);
-            Some((wedge.name.clone(), WedgeWorn { column, slope, rise }))
+            let both = depths.map(|own| (1.0 + law.counterface) * own);
+            let rise = Wear {
+                column: both[0],
+                slope: both[1],
+            }
+            .rise(wedge.angles);
+            let [column, slope] = [0, 1].map(|face| worn(&wedge.faces[face], depths[face], units));
+            let rise = SummaryValue::new(rise, Kind::Length, units);
+            (wedge.name.clone(), WedgeWorn { column, slope, rise })
         });
         Some(WedgesWorn {
             over: shown,
@@ -114,7 +100,10 @@ fn worn(face: &OfFace, mean: f64, units: Units) -> FaceWorn {
         .moved
         .iter()
         .map(|([up, across], own)| [f64::from(*up) * square, f64::from(*across) * square, own * part]);
-    let most = shares.iter().zip(&face.weights).map(|(own, weight)| own / weight);
+    let most = shares
+        .iter()
+        .zip(&face.plan.weights)
+        .map(|(own, weight)| own / weight);
     FaceWorn {
         mean_depth: SummaryValue::new(mean, Kind::Length, units),
         unevenness: most.fold(0.0, f64::max),
