@@ -7,6 +7,7 @@ pub mod layers;
 mod links;
 mod octave;
 mod page;
+mod programs;
 mod prose;
 mod python;
 mod race;
@@ -86,11 +87,7 @@ const CHECKS: &[Check] = &[
         viewer::check,
     ),
     Check::new("clippy", "no lint warns", clippy),
-    Check::new(
-        "test",
-        "the tests of libraries, programs and examples pass",
-        tests,
-    ),
+    Check::new("test", "the tests of libraries and programs pass", programs::run),
     Check::new(
         "fuzz",
         "twenty seconds of broken inputs break no reader",
@@ -179,20 +176,6 @@ fn format(workspace: &Workspace) -> Outcome {
 fn clippy(workspace: &Workspace) -> Outcome {
     component(workspace, "clippy", "clippy")?;
     shell::run(&mut workspace.cargo(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))?;
-    Ok(None)
-}
-
-fn tests(workspace: &Workspace) -> Outcome {
-    // In the release profile: what is tested is what users run (docs/decisions/0008), and it is several times
-    // faster. The tests of what is built apart run in the check `race`; benchmarks are left to `cargo xtask
-    // bench`, and clippy has compiled them.
-    let targets = ["--lib", "--bins", "--tests", "--examples"];
-    shell::run(
-        workspace
-            .cargo(["test", "--release", "--no-fail-fast"])
-            .args(SHARED)
-            .args(targets),
-    )?;
     Ok(None)
 }
 

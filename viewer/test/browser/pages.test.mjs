@@ -17,7 +17,7 @@ const RUNS = [
   ["wedge", "vdrun_toe_0_psi_0.012", ["simulation.duration='3 s'"]],
   ["softer", "vdrun_toe_0_psi_0.012", ["simulation.duration='3 s'", "friction.column=0.3"]],
   ["truck", "truck_vertical_variable", ["simulation.duration='2 s'"]],
-  ["car", "car_twist_and_roll_loaded", ["simulation.duration='3 s'", "start.settle='1 s'"]],
+  ["car", "car_twist_and_roll_loaded", ["simulation.duration='3 s'", "start.settle='1 s'", "start.kind='equilibrium'"]],
 ];
 
 let browser;

@@ -14,6 +14,7 @@ const ROUTE: &str = "title = \"two tracks\"\ncase = \"car_constant_curve_loaded\
 simulation.duration = \"8 s\"
 simulation.output_interval = \"10 ms\"
 start.settle = \"5 s\"
+start.kind = \"equilibrium\"
 [wedges]
 coefficient = 2e-6
 [tracks.curve]

@@ -40,6 +40,7 @@ fn settings(cube: &LatinHypercube, number: u64, duration: f64) -> Vec<String> {
         ),
         format!("simulation.relative_tolerance={:e}", logarithmic(12, 1e-8, 1e-2)),
         format!("simulation.duration=\"{duration} s\""),
+        "start.kind=equilibrium".to_owned(),
     ]
 }
 

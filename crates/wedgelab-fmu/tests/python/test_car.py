@@ -10,7 +10,7 @@ from fmpy.validation import validate_fmu
 
 CASE = "car_pitch_and_bounce_loaded"
 STEP, DURATION = 0.005, 0.1
-SET = ["--set", f"simulation.duration={DURATION} s", "--set", "start.settle=0 s"]
+SET = ["--set", f"simulation.duration={DURATION} s", "--set", "start.settle=0 s", "--set", "start.kind=equilibrium"]
 
 
 @pytest.fixture(scope="module")

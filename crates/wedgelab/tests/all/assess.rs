@@ -64,6 +64,8 @@ fn assess<'a>(out: &'a str, limits: &'a str, more: &[&'a str]) -> Vec<&'a str> {
         "mu_0.25",
         "--limits",
         limits,
+        "--set",
+        "start.kind=\"equilibrium\"",
         "--out",
         out,
         "--quiet",

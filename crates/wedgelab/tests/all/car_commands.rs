@@ -16,7 +16,12 @@ fn input_a_run_of_a_car_writes_its_files() {
         } else {
             "speed.value=40 mph"
         };
-        let settings = ["simulation.duration=0.1 s", "start.settle=0 s", speed];
+        let settings = [
+            "simulation.duration=0.1 s",
+            "start.settle=0 s",
+            "start.kind=equilibrium",
+            speed,
+        ];
         let set = settings.iter().flat_map(|own| ["--set", own]);
         let arguments: Vec<&str> = ["run", "car_pitch_and_bounce_loaded", "-q", "--out", out]
             .into_iter()

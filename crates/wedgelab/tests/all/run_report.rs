@@ -204,7 +204,13 @@ fn trucks_and_cars_are_read_with_what_their_pages_keep() {
     // More rows than a page keeps, and an odd number of them.
     let fine = ["truck.condition='worn'", "simulation.output_interval='0.5 ms'"];
     run(at, TRUCK, "0.9995", &fine, "b");
-    run(at, CAR, "3", &["start.settle='1 s'"], "car");
+    run(
+        at,
+        CAR,
+        "3",
+        &["start.settle='1 s'", "start.kind=equilibrium"],
+        "car",
+    );
     done(at, &["report", "a", "b", "car", "--out", "all"]);
     let page = page(&at.join("all"));
     for id in [

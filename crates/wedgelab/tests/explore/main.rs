@@ -133,6 +133,7 @@ fn a_car_is_explored_and_kept() {
         ("simulation.duration", "0.1 s"),
         ("speed.value", "40 mph"),
         ("start.settle", "0 s"),
+        ("start.kind", "equilibrium"),
     ];
     let wanted: serde_json::Map<String, Value> = set
         .iter()

@@ -208,7 +208,7 @@ fn limits_the_number_of_jobs_changes_nothing() {
 fn limits_interrupted_it_says_so_and_goes_on() {
     let folder = tempdir().unwrap();
     let path = folder.path();
-    fs::write(path.join("long.toml"), SMALL.replace("0.12 s", "2 s")).unwrap();
+    fs::write(path.join("long.toml"), SMALL.replace("0.12 s", "6 s")).unwrap();
     let child = command(path, &["study", "long.toml", "--out", "a", "--jobs", "1"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
