@@ -38,7 +38,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 43] = [
+pub const ALL: [Reader; 44] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
@@ -51,6 +51,7 @@ pub const ALL: [Reader; 43] = [
     trucks::PROFILES,
     studies::STUDIES,
     studies::ROUTES,
+    studies::PLANS,
     studies::MANIFESTS,
     studies::RECORDS,
     studies::POINTS,

@@ -6,8 +6,9 @@ use std::sync::LazyLock;
 use report::study_folder::{STUDY_FILE, StudyFolder};
 use reproduction::claims::{ClaimVerdict, claims};
 use reproduction::sensitivity::{AXES, POINTS_FILE, PointOutcome, PointPlace, PointsFile, Space};
-use study::design::Study;
+use study::design::{Study, Value};
 use study::measures::{Measures, of_wedges};
+use study::probability::Plan;
 use study::records::{self, Record, Status};
 use study::route::Route;
 
@@ -62,6 +63,34 @@ pub const ROUTES: Reader = Reader {
         b"track.segments = [{ tangent = \"600 ft\" }]",
     ],
     read: route_file,
+};
+
+/// Plans of probabilities.
+pub const PLANS: Reader = Reader {
+    name: "plans",
+    about: "plans of probabilities, and the cases of their runs",
+    corpus: corpus!("plans": "rule.toml", "subset.toml"),
+    dictionary: &[
+        b"[uncertain]",
+        b"[set]",
+        b"method = \"monte_carlo\"",
+        b"method = \"sobol\"",
+        b"method = \"subset\"",
+        b"level_probability = 0.25",
+        b"distribution = \"uniform\"",
+        b"distribution = \"normal\"",
+        b"distribution = \"lognormal\"",
+        b"deviation = 1e-300",
+        b"factor = 1.0000000000000002",
+        b"from = -1e308",
+        b"to = 1e308",
+        b"weights = [0, 1e308]",
+        b"mark = \"guess\"",
+        b"limit = \"aar_chapter_xi.body_roll\"",
+        b"at_least = 0",
+        b"indices = 1000000",
+    ],
+    read: plan_file,
 };
 
 /// The description in a study's folder.
@@ -167,6 +196,29 @@ fn route_file(input: &[u8]) -> ReadOutcome {
     let mut outcome = ReadOutcome::ACCEPTED;
     for run in runs.iter().take(4) {
         if let Err(error) = route.case(run.of, &[]) {
+            outcome = outcome.or(refused(&error));
+        }
+    }
+    outcome
+}
+
+fn plan_file(input: &[u8]) -> ReadOutcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return ReadOutcome::NO_TEXT;
+    };
+    let plan = match Plan::parse("plan.toml", text, nowhere()) {
+        Ok(plan) => plan,
+        Err(error) => return refused(&error),
+    };
+    assert!(plan.most_runs() > 0, "no runs: {}", plan.name);
+    let mut outcome = ReadOutcome::ACCEPTED;
+    for u in [-8.0, -1.0, 0.0, 8.0] {
+        let point = vec![u; plan.uncertain.len()];
+        for value in plan.values(&point) {
+            let finite = !matches!(value, Value::Number { value, .. } if !value.is_finite());
+            assert!(finite, "no number at {u}: {}", plan.name);
+        }
+        if let Err(error) = plan.case(&point) {
             outcome = outcome.or(refused(&error));
         }
     }
