@@ -110,7 +110,11 @@ fn worst_runs(
 }
 
 /// Computes something of all items, several at a time; results come in any order.
-fn in_parallel<T: Send, R: Send>(items: VecDeque<T>, jobs: usize, compute: impl Fn(T) -> R + Sync) -> Vec<R> {
+pub(crate) fn in_parallel<T: Send, R: Send>(
+    items: VecDeque<T>,
+    jobs: usize,
+    compute: impl Fn(T) -> R + Sync,
+) -> Vec<R> {
     let (queue, found) = (Mutex::new(items), Mutex::new(Vec::new()));
     let worker = || {
         let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).pop_front();

@@ -92,8 +92,8 @@ fn plain(value: f64) -> SummaryValue {
     }
 }
 
-/// Returns the figure: the pace of wear over the service, the rise of wedges, and depths over the profiles in
-/// the last step.
+/// Returns the figure: the pace of wear over the service, the rise of wedges, and depths over the profiles
+/// in the last step.
 #[must_use]
 pub fn figure(route: &RouteSummary) -> Figure {
     let units = route.units;
@@ -143,6 +143,43 @@ pub fn figure(route: &RouteSummary) -> Figure {
     }
     let caption = "Wear of wheels, rails and wedges along the route, by the mean of its runs.";
     Figure::new(format!("{}: wear along the route", route.name), caption, panels).in_columns(2)
+}
+
+/// When a wedge stands higher by some rise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RiseReached {
+    /// The wedge.
+    pub wedge: String,
+    /// The service at which it does, in the unit of the route's.
+    pub service: f64,
+    /// True if that is beyond the route, at the pace of its last step.
+    pub beyond: bool,
+}
+
+/// Returns when each wedge stands higher by a rise (in the unit of the route's rises), straight between
+/// the ends of steps; wedges that do not rise are left out.
+#[must_use]
+pub fn rise_reached(route: &RouteSummary, rise: f64) -> Vec<RiseReached> {
+    let names = route.steps.last().map(|step| step.wedges.keys());
+    let of = |name: &String| {
+        let ends = route
+            .steps
+            .iter()
+            .filter_map(|step| Some([step.service[1].value, step.wedges.get(name)?.rise.value]));
+        let points: Vec<[f64; 2]> = std::iter::once([0.0, 0.0]).chain(ends).collect();
+        let within = points.windows(2).find(|pair| pair[1][1] >= rise);
+        let pair = within.or(points.windows(2).last())?;
+        let [[from, before], [to, after]] = [pair[0], pair[1]];
+        let pace = (after - before) / (to - from);
+        (pace > 0.0).then(|| RiseReached {
+            wedge: name.clone(),
+            service: from + (rise - before) / pace,
+            beyond: within.is_none(),
+        })
+    };
+    let mut found: Vec<RiseReached> = names.into_iter().flatten().filter_map(of).collect();
+    found.sort_by(|a, b| a.service.total_cmp(&b.service));
+    found
 }
 
 /// Returns the result in words.

@@ -20,6 +20,7 @@ use std::sync::{Mutex, PoisonError};
 
 use input::file::{Expected, ReadError, Reason, read, read_text};
 use input::{FileType, limits};
+use serde::Serialize;
 use study::design::{Factor, Study, Value};
 use study::records::{self, Record};
 
@@ -106,15 +107,32 @@ impl StudyFolder {
     /// The folder holds something else or another study, another program works there, or it cannot be written
     /// to.
     pub fn open(path: &Path, study: &Study) -> Result<Self, StudyFolderError> {
-        let description = serde_json::to_string_pretty(&study.description())
+        let made = [TABLE_FILE, TABLE_CSV_FILE, page::FILE_NAME, SERIES];
+        let description = study.description();
+        let of = (study.fingerprint(), study.count());
+        Self::open_as(path, (STUDY_FILE, &made), &description, of)
+    }
+
+    /// Begins a folder of other numbered runs, or goes on with the same: `manifest` is the file that says
+    /// what they are, `made` the files that are made of them.
+    ///
+    /// # Errors
+    /// As [`StudyFolder::open`].
+    pub fn open_as(
+        path: &Path,
+        (manifest_name, made): (&'static str, &[&str]),
+        description: &impl Serialize,
+        (fingerprint, count): (u64, u64),
+    ) -> Result<Self, StudyFolderError> {
+        let description = serde_json::to_string_pretty(description)
             .map_err(|error| write_error(path, io::Error::other(error)))?;
-        let manifest = path.join(STUDY_FILE);
+        let manifest = path.join(manifest_name);
         if !manifest.is_file() {
-            refuse_foreign(path)?;
+            refuse_foreign(path, manifest_name, made)?;
         }
         // Says in its own words what is wrong with a path. Whether there is a study is asked again below the
         // lock: another program may have begun it meanwhile.
-        let folder = Folder::check(path, &[STUDY_FILE], true)?;
+        let folder = Folder::check(path, &[manifest_name], true)?;
         fs::create_dir_all(path.join(PARTS)).map_err(|reason| write_error(path, reason))?;
         let lock = OpenOptions::new()
             .create(true)
@@ -129,15 +147,15 @@ impl StudyFolder {
             let found = read_text(&manifest, &MANIFEST).map_err(|error| unreadable(&manifest, error))?;
             error::compare(path, &manifest, &found, &description)?;
         } else {
-            folder.write(|files| files.add(STUDY_FILE, |out| out.write_all(description.as_bytes())))?;
+            folder.write(|files| files.add(manifest_name, |out| out.write_all(description.as_bytes())))?;
         }
         Ok(Self {
             removed: staging::remove_left_over([&folder]),
             path: path.to_owned(),
-            fingerprint: study.fingerprint(),
+            fingerprint,
             description,
-            count: study.count(),
-            part_size: part_size(study.count()),
+            count,
+            part_size: part_size(count),
             _lock: lock,
             writing: Mutex::new(()),
         })
@@ -331,19 +349,20 @@ impl StudyFolder {
     }
 }
 
-/// Refuses a folder that holds anything but the beginnings of a study.
-fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
+/// Refuses a folder that holds anything but the beginnings of such runs.
+fn refuse_foreign(path: &Path, manifest: &str, made: &[&str]) -> Result<(), StudyFolderError> {
     let Ok(entries) = fs::read_dir(path) else {
         // It is not there, or what is wrong with it will be said when it is written to.
         return Ok(());
     };
     // With parts it is a study whose description was moved away; whose records they are, each of them tells.
     let made: &[&str] = match path.join(PARTS).is_dir() {
-        true => &[TABLE_FILE, TABLE_CSV_FILE, page::FILE_NAME, SERIES],
-        false => &[SERIES],
+        true => made,
+        false if made.contains(&SERIES) => &[SERIES],
+        false => &[],
     };
     let own = |name: &str| {
-        [LOCK_FILE, PARTS, STUDY_FILE].contains(&name)
+        [LOCK_FILE, PARTS, manifest].contains(&name)
             || name.starts_with(staging::HIDDEN)
             || made.contains(&name)
     };
@@ -368,16 +387,17 @@ fn write_error(file: &Path, reason: io::Error) -> StudyFolderError {
 /// which it is positive: `side_frame.toe_out_deg`.
 #[must_use]
 pub fn factor_column(factor: &Factor) -> String {
-    let suffix = factor
-        .unit()
-        .unwrap_or("")
-        .replace('/', " per ")
-        .replace(['^', '(', ')'], "");
+    value_column(factor.name(), factor.unit().unwrap_or(""))
+}
+
+/// Returns the name of the column of a parameter's values in a unit, as [`factor_column`].
+#[must_use]
+pub fn value_column(name: &str, unit: &str) -> String {
+    let suffix = unit.replace('/', " per ").replace(['^', '(', ')'], "");
     let words: Vec<&str> = suffix
         .split([' ', '*', '·'])
         .filter(|word| !word.is_empty())
         .collect();
-    let name = factor.name();
     let name = match name.ends_with(".toe") && !words.is_empty() {
         true => format!("{name}_out"),
         false => name.to_owned(),

@@ -157,7 +157,7 @@ impl Assessment {
             let problem = Problem::new(format!("the regime {twice} is named twice"));
             return Err(problem.help("name each regime once").into());
         }
-        let car = car_of(request)?;
+        let car = car_of(&request.car, &request.set)?;
         let conditions = match request.conditions.as_slice() {
             [] => Condition::all().iter().take(1).cloned().collect(),
             names => Condition::chosen(names, car.1.car().is_some())?,
@@ -166,7 +166,7 @@ impl Assessment {
     }
 
     /// Makes it of a car, limits, regimes and conditions that are read.
-    fn with(
+    pub(crate) fn with(
         request: Request,
         (source, base): (CaseSource, AnyCase),
         limits: Arc<LimitSet>,
@@ -357,7 +357,7 @@ pub fn counted(count: usize, what: &str) -> String {
 }
 
 /// Returns the first regime that is there twice.
-fn repeated(regimes: &[Regime]) -> Option<&str> {
+pub(crate) fn repeated(regimes: &[Regime]) -> Option<&str> {
     let names = regimes.iter().map(|own| own.name.as_str()).enumerate();
     let mut twice = names.filter(|(place, name)| regimes[..*place].iter().any(|own| own.name == *name));
     twice.next().map(|(_, name)| name)
@@ -373,8 +373,7 @@ fn rules(case: &AnyCase) -> Option<Rules> {
 }
 
 /// Reads the car, or the vehicle.
-fn car_of(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
-    let path = &request.car;
+pub(crate) fn car_of(path: &Path, set: &[String]) -> Result<(CaseSource, AnyCase), CaseError> {
     let name = path.to_str().unwrap_or_default();
     let source = match built_in(name) {
         Some(own) if !path.is_file() => CaseSource::File {
@@ -394,7 +393,7 @@ fn car_of(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
         },
     };
-    let case = source.case(&request.set)?;
+    let case = source.case(set)?;
     match rules(&case) {
         Some(_) => Ok((source, case)),
         None => Err(no_car(path)),

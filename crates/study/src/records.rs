@@ -20,6 +20,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mechanics::energy_balance::{FAILED, Verdict};
 use quantity::SixDigits;
 
+use crate::case::CaseError;
 use crate::design::Study;
 use crate::measures::{Definitions, Judged, Measures, Unmeasured};
 use crate::models::AnyCase;
@@ -98,6 +99,17 @@ pub fn run(study: &Study, number: u64) -> Record {
     caught(number, || compute(study, number))
 }
 
+/// Computes a case of which these measures are kept. Whatever goes wrong in it, or in making it, it is a
+/// record.
+#[must_use]
+pub fn run_made(
+    definitions: &Definitions,
+    number: u64,
+    make: impl FnOnce() -> Result<AnyCase, CaseError>,
+) -> Record {
+    caught(number, || judged_case(definitions, number, make()))
+}
+
 /// Computes a case as if it were this variant of the study.
 #[must_use]
 pub fn run_case(study: &Study, number: u64, case: &AnyCase) -> Record {
@@ -122,11 +134,15 @@ fn caught(number: u64, compute: impl FnOnce() -> Record) -> Record {
 }
 
 fn compute(study: &Study, number: u64) -> Record {
-    let case = study.case(number).map_err(|error| {
+    judged_case(study.measures(), number, study.case(number))
+}
+
+fn judged_case(definitions: &Definitions, number: u64, case: Result<AnyCase, CaseError>) -> Record {
+    let case = case.map_err(|error| {
         let reasons: Vec<&str> = error.problems().iter().map(|problem| problem.message()).collect();
         Unmeasured::Refused(reasons.join("; "))
     });
-    record(study.measures(), number, case.and_then(|case| case.judge()))
+    record(definitions, number, case.and_then(|case| case.judge()))
 }
 
 /// Returns the outcome of a variant as its record.

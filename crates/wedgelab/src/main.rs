@@ -21,9 +21,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    assess, case, compare, completions, curves, energy, explore, fit, fmu, lock_up, man, nucars, plot,
-    quasi_static, regime, report as report_command, reproduce, route, run, stability, study, track, warp,
-    wear, wheelrail,
+    assess, case, compare, completions, coupon, curves, energy, explore, fit, fmu, lock_up, man, nucars,
+    plot, probability, quasi_static, regime, report as report_command, reproduce, rise, route, run,
+    stability, study, track, warp, wear, wheelrail,
 };
 use failure::Failure;
 
@@ -69,6 +69,7 @@ enum Command {
     Reproduce(reproduce::Arguments),
     Run(run::Arguments),
     Study(study::Arguments),
+    Probability(probability::Arguments),
     Fit(fit::Arguments),
     Compare(compare::Arguments),
     Plot(plot::Arguments),
@@ -78,9 +79,11 @@ enum Command {
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
     LockUp(lock_up::Arguments),
+    Coupon(coupon::Arguments),
     Curves(curves::Arguments),
     Energy(energy::Arguments),
     Wear(wear::Arguments),
+    Rise(rise::Arguments),
     Route(route::Arguments),
     Stability(stability::Arguments),
     Regime(regime::Arguments),
@@ -100,6 +103,7 @@ impl Cli {
             Command::Reproduce(arguments) => reproduce::execute(&arguments),
             Command::Run(arguments) => run::execute(&arguments),
             Command::Study(arguments) => study::execute(&arguments),
+            Command::Probability(arguments) => probability::execute(&arguments),
             Command::Fit(arguments) => fit::execute(&arguments),
             Command::Compare(arguments) => compare::execute(&arguments),
             Command::Plot(arguments) => plot::execute(&arguments),
@@ -109,9 +113,11 @@ impl Cli {
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
             Command::LockUp(arguments) => lock_up::execute(&arguments),
+            Command::Coupon(arguments) => coupon::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
             Command::Energy(arguments) => energy::execute(&arguments),
             Command::Wear(arguments) => wear::execute(&arguments),
+            Command::Rise(arguments) => rise::execute(&arguments),
             Command::Route(arguments) => route::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
             Command::Regime(arguments) => regime::execute(&arguments),

@@ -13,6 +13,7 @@ pub mod car;
 pub mod jam;
 pub mod power_flow;
 mod pressure;
+pub mod rise;
 pub mod run;
 pub mod side_by_side;
 pub mod study;

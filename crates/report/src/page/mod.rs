@@ -9,6 +9,7 @@ pub mod explorer;
 pub mod half_truck_run;
 pub mod packed;
 mod paths;
+pub mod rise;
 pub mod side_by_side;
 pub mod stability;
 mod statics;
@@ -113,7 +114,7 @@ fn list(texts: &[String]) -> Markup {
 }
 
 /// Returns a number in a unit, if it has one.
-fn in_unit(value: f64, unit: &str) -> String {
+pub(crate) fn in_unit(value: f64, unit: &str) -> String {
     match unit {
         "" => digits(value),
         unit => format!("{} {unit}", digits(value)),

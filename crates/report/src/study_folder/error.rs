@@ -144,6 +144,10 @@ pub(super) fn compare(folder: &Path, file: &Path, found: &str, wanted: &str) -> 
         ("accuracy", "the accuracy"),
         ("factors", "the parameters varied or their values"),
         ("list", "the list of variants"),
+        ("method", "the method or its numbers"),
+        ("uncertain", "the uncertain parameters or their distributions"),
+        ("limit", "the limit"),
+        ("indices", "the samples of indices"),
         ("set", "what is set for all runs"),
         ("case", "the case"),
     ];

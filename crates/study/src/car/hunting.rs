@@ -206,6 +206,20 @@ pub fn hunting(
     Ok(found)
 }
 
+/// Returns the falling ramp alone: the speed at which a limit cycle dies. `go_on` receives the time; where it
+/// breaks, what was computed comes back.
+///
+/// # Errors
+/// [`HuntingError`].
+pub fn falling(
+    case: &CarCase,
+    settings: HuntingSettings,
+    go_on: impl FnMut(f64) -> ControlFlow<String>,
+) -> Result<Ramp, HuntingError> {
+    settings.check(case)?;
+    one(case, &settings, true, go_on).map(|own| own.0)
+}
+
 /// Runs one ramp. Returns it, and whether the run came to its end.
 fn one(
     case: &CarCase,

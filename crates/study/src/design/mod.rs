@@ -12,6 +12,7 @@ mod read;
 mod sobol;
 mod values;
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use quantity::System as Units;
@@ -21,7 +22,8 @@ pub use factor::{Factor, Group, Levels, Value};
 pub use latin_hypercube::LatinHypercube;
 pub use sobol::{DIMENSIONS, Sobol};
 
-pub(crate) use read::{case_source, settings};
+pub(crate) use random::mix;
+pub(crate) use read::{below, case_source, settings, value};
 
 use crate::case::CaseError;
 use crate::measures::Definitions;
@@ -233,17 +235,21 @@ impl Study {
     /// Returns the description in short: other studies have another number, as good as certainly.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
-        // FNV-1a over the description's text, whose floating-point numbers are written so that they read
-        // back.
-        let text = format!("{:?}", self.description());
-        text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-        })
+        fingerprint(&self.description())
     }
 
     fn everywhere(&self) -> impl Iterator<Item = String> {
         accuracy_overrides(self.accuracy).chain(self.set.clone())
     }
+}
+
+/// Returns the hash of a description: FNV-1a over its text, whose floating-point numbers are written so that
+/// they read back.
+pub(crate) fn fingerprint(description: &impl fmt::Debug) -> u64 {
+    let text = format!("{description:?}");
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// Returns the settings of an accuracy.

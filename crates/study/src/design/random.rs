@@ -2,7 +2,7 @@
 
 /// 64 random bits for a seed and some numbers: the finalizer of SplitMix64 (Steele, Lea and Flood, 2014),
 /// once a number.
-pub(super) fn mix(seed: u64, numbers: &[u64]) -> u64 {
+pub(crate) fn mix(seed: u64, numbers: &[u64]) -> u64 {
     let mut state = finalize(seed.wrapping_add(0x9e37_79b9_7f4a_7c15));
     for number in numbers {
         state = finalize(state ^ number.wrapping_add(0x9e37_79b9_7f4a_7c15));

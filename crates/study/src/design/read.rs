@@ -18,6 +18,7 @@ use crate::case::tree::{self, NodeValue as Toml, TableNode, TreeNode};
 use crate::case::{CASE_FILE, CASE_TABLES, CaseError};
 use crate::models::{self, CaseSource};
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
+pub(crate) use vary::{below, value};
 
 const KEYS: [&str; 11] = [
     "name", "title", "case", "sampling", "runs", "seed", "accuracy", "set", "groups", "vary", "variants",

@@ -7,7 +7,7 @@
 //! wrong, a sensor that drifts) make them too narrow, which [`Fit::durbin_watson`] tells.
 
 pub mod least_squares;
-mod student;
+pub(crate) mod student;
 
 use input::bounded;
 use quantity::Quantity;

@@ -15,6 +15,7 @@
 
 pub mod archard;
 pub mod counterface;
+pub mod coupon;
 pub mod cycle;
 pub mod energy;
 pub mod mounted;

@@ -4,6 +4,7 @@
 mod fit;
 mod issue_029_states_behaviour;
 mod parts;
+mod probability;
 mod sections;
 mod signal;
 mod vehicle;

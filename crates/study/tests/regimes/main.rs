@@ -5,6 +5,7 @@ mod assessments;
 mod files;
 mod limits;
 mod orders;
+mod rise;
 mod tracks;
 
 use study::car::CarCase;

@@ -10,11 +10,12 @@ use std::sync::PoisonError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
+use quantity::{Kind, Quantity};
 use report::route_files::{self as files, NAMES};
 use staging::Folder;
 use study::car::CarCase;
 use study::car::summary::CarSummary;
-use study::route::{OfRun, Route, RouteRun, RouteWear, Worn};
+use study::route::{OfRun, Route, RouteRun, RouteSummary, RouteWear, Worn};
 use study::run::Run;
 
 use crate::drawn::Drawn;
@@ -45,6 +46,9 @@ pub struct Arguments {
     /// Folder to write into, or to continue in [default: NAME_route]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Also tell after how much service each wedge stands higher by this
+    #[arg(long, value_name = "LENGTH", value_parser = super::rise::length)]
+    rise: Option<Quantity>,
     /// Number of runs at a time [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
@@ -85,7 +89,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     progress.finish();
     let summary = &wear.summary;
     let figure = Drawn::of(&files::figure(summary))?;
-    let words = files::words(summary);
+    let mut words = files::words(summary);
+    if let Some(rise) = &arguments.rise {
+        words += &miles(summary, rise);
+    }
     let folder = Folder::check(&path, &NAMES, true)?;
     folder.write(|all| {
         all.add(files::SUMMARY, |out| files::write_summary(summary, out))?;
@@ -117,6 +124,28 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             let advice = "what they have worn until then counts; look at the warnings";
             Err(Failure::Failed(Message::new(message, advice).into()))
         }
+    }
+}
+
+/// Returns when wedges stand higher by a rise, in words.
+fn miles(summary: &RouteSummary, rise: &Quantity) -> String {
+    let in_unit = rise.to_si() * Kind::Length.from_si(summary.units);
+    let found = files::rise_reached(summary, in_unit);
+    let lines = found.iter().map(|own| {
+        let how = match own.beyond {
+            true => ", beyond the route, at the pace of its last step",
+            false => "",
+        };
+        let wedge = own.wedge.replace('_', " ");
+        format!(
+            "  {wedge}: after {:.0} {}{how}\n",
+            own.service, summary.service.unit
+        )
+    });
+    let lines: String = lines.collect();
+    match lines.is_empty() {
+        true => format!("\nNo wedge rises by {rise}: write [wedges] into the route.\n"),
+        false => format!("\nWedges stand higher by {rise}:\n{lines}"),
     }
 }
 

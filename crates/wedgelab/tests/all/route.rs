@@ -48,6 +48,12 @@ fn limits_a_route_goes_on_with_the_same_bytes() {
     done(at, &["route", "two.toml", "--quiet", "--jobs", "1"]);
     assert_eq!(first, names.map(read));
     assert_eq!(written, fs::metadata(&kept).unwrap().modified().unwrap());
+    // Straight between the ends of steps, beyond the route at the last pace.
+    let told = done(at, &["route", "two.toml", "--quiet", "--rise", "1 in"]);
+    assert!(
+        told.contains("Wedges stand higher by 1 in:") && told.contains("beyond the route"),
+        "{told}"
+    );
 }
 
 #[test]

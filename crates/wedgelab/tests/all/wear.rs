@@ -136,3 +136,37 @@ fn input_mistakes_with_wear_are_reported() {
         "a single wedge",
     );
 }
+
+/// The coefficient that a measured depth means wears that depth; mass and depth agree; mistakes are said.
+#[test]
+fn analytic_a_coupon_tells_the_coefficient_of_its_wear() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let told = |arguments: &[&str]| -> serde_json::Value {
+        let text = common::done(at, &[&["coupon", "--json"], arguments].concat());
+        serde_json::from_str(&text).unwrap()
+    };
+    let by_depth = told(&["--area", "4 in^2", "--worn-depth", "0.02 in"]);
+    let found = by_depth["coefficient_of_worn"].as_f64().unwrap();
+    // V H / (N 4 A n), by hand: 4 in2 of 0.02 in, 2450 MPa, 750 lbf over 200,000 in.
+    let by_hand = 4.0 * 0.02 * 0.0254_f64.powi(3) * 2.45e9 / (750.0 * 4.448_221_615 * 2e5 * 0.0254);
+    assert!((found / by_hand - 1.0).abs() < 1e-8, "{found} {by_hand}");
+    let last = by_depth["rows"].as_array().unwrap().last().unwrap();
+    assert!((last["depth_m"].as_f64().unwrap() / (0.02 * 0.0254) - 1.0).abs() < 1e-12);
+    let mass = format!("{} kg", last["mass_kg"].as_f64().unwrap());
+    let by_mass = told(&["--worn-mass", &mass])["coefficient_of_worn"]
+        .as_f64()
+        .unwrap();
+    assert!((by_mass / found - 1.0).abs() < 1e-9);
+    for (arguments, part) in [
+        (&["--worn-depth", "0.02 in"][..], "--area"),
+        (&["--area", "4 in"], "4 in^2"),
+        (&["--clamp", "0 lbf"], "above 0"),
+    ] {
+        let output = common::wedgelab(at, &[&["coupon"], arguments].concat());
+        assert_eq!(output.code, Some(2));
+        assert!(output.err.contains(part), "{}", output.err);
+    }
+    let odd = common::done(at, &["coupon", "--worn-mass", "40 kg"]);
+    assert!(odd.contains("warning: dry steel is worn by"), "{odd}");
+}

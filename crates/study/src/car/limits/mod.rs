@@ -39,7 +39,7 @@ use super::statistics::{Rules, Statistic};
 use super::worst::Worst;
 use crate::case::CaseError;
 
-mod read;
+pub(crate) mod read;
 pub mod value;
 
 /// What is there at rest, %.

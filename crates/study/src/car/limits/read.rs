@@ -28,7 +28,7 @@ const LIMIT_KEYS: [&str; 9] = [
     "remark",
 ];
 const HELP: &str = "write [[limits]] and below it name, quantity, measure, regimes and at_most or at_least";
-const MARKS: Names<Mark> = &[
+pub(crate) const MARKS: Names<Mark> = &[
     ("source", Mark::Source),
     ("derived", Mark::Derived),
     ("remembered", Mark::Remembered),
@@ -206,10 +206,15 @@ fn no_measure(text: &str) -> Problem {
 }
 
 /// The value of a limit, its unit, and that in SI.
-type Value = (LimitValue, String, f64);
+pub(crate) type Value = (LimitValue, String, f64);
 
 /// Reads a value that is a number or a quantity.
-fn number(own: &CaseSection<'_>, key: &str, measure: &Worst, problems: &mut Problems) -> Option<Value> {
+pub(crate) fn number(
+    own: &CaseSection<'_>,
+    key: &str,
+    measure: &Worst,
+    problems: &mut Problems,
+) -> Option<Value> {
     if measure.unit.is_empty() && measure.kind == Kind::Dimensionless {
         let value = own.number(key, Range::Positive, "0.8", problems)?;
         return Some((LimitValue::Number(value), String::new(), 1.0));

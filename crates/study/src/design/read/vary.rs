@@ -19,7 +19,7 @@ pub(super) const TRIED: usize = 200;
 const SCALES: Names<bool> = &[("linear", false), ("logarithmic", true)];
 
 /// Returns a value as written.
-fn value(path: &str, node: &TreeNode) -> Value {
+pub(crate) fn value(path: &str, node: &TreeNode) -> Value {
     match &node.value {
         Toml::Number(number) if number.is_finite() => Value::Number {
             value: *number,
@@ -31,7 +31,7 @@ fn value(path: &str, node: &TreeNode) -> Value {
 }
 
 /// Returns a key under a path.
-fn below(path: &str, key: &str) -> String {
+pub(crate) fn below(path: &str, key: &str) -> String {
     if path.is_empty() {
         key.to_owned()
     } else {
