@@ -19,7 +19,7 @@ use crate::json;
 /// A coupon of a wedge's face slides to and fro under a clamp and wears by Archard's law; no motion is
 /// integrated. Without options it is the test of AAR M-980 as remembered: 0.5 in to each side, 100,000
 /// cycles, 750 lbf: check them against your edition. Write the coefficient that comes out as
-/// damage.wedge_coefficient of a car or a truck, or as coefficient in [wedges] of a route, whose command
+/// damage.wedge_coefficient of a car or a truck, or as coefficient of the wedges of a route, whose command
 /// tells the miles to a rise.
 ///
 /// The hardness is a guess. A coupon runs warm and keeps its debris: a wedge in service may wear otherwise.
