@@ -58,13 +58,6 @@ impl Depends {
         });
         all.filter(|own| !own.answers.is_empty()).collect()
     }
-
-    /// Returns the lowest rise at which the limit is reached in a condition, with that condition.
-    #[must_use]
-    pub fn lowest(&self) -> Option<&Answer> {
-        let reached = self.answers.iter().filter(|own| own.bracket.exceeded.is_some());
-        reached.min_by_key(|own| own.bracket.exceeded)
-    }
 }
 
 /// Returns the answers of the car itself.

@@ -1,6 +1,7 @@
 //! The pages of a survey of wedge rise: the table of an inspection rule, and the method.
 
 use maud::{Markup, html};
+use quantity::{Kind, System as Units};
 use study::car::limits::Mark;
 use study::rise::answer::Answer;
 use study::rise::rigs::Rig;
@@ -219,7 +220,7 @@ pub fn method(survey: &Survey, findings: &RiseFindings) -> String {
             (_, None) => ("–".to_owned(), ""),
             (Rig::Warp, Some(value)) => (digits(1e-3 * value / KIP_INCH), "kip in/mrad"),
             (Rig::Damping, Some(value)) => (digits(value), "J a cycle"),
-            (Rig::Hunting, Some(value)) => (digits(value / MILE_PER_HOUR), "mph"),
+            (Rig::Hunting, Some(value)) => (digits(value * Kind::TravelSpeed.from_si(Units::Us)), "mph"),
         };
         [
             own.rig.name().to_owned(),
@@ -253,8 +254,10 @@ pub fn method(survey: &Survey, findings: &RiseFindings) -> String {
                      down to a sixteenth of an inch; at other speeds that exceed it higher up: the rise \
                      just below."
                 }
-                li { "Speeds half way to those beside the worst one, at the rise that is just kept, down \
-                    to 2 mph." }
+                li {
+                    "Speeds half way to those beside the worst one, down to 2 mph: at the rise that is just \
+                     kept, or, where less than half of a limit is left, at the rise that leaves least."
+                }
                 li {
                     "Each other condition alone, on the two limits of different regimes that are reached \
                      first, at the speed at which the car is worst, to an eighth of an inch."
@@ -336,5 +339,3 @@ pub fn method(survey: &Survey, findings: &RiseFindings) -> String {
         None,
     )
 }
-
-const MILE_PER_HOUR: f64 = 0.447_04;

@@ -12,8 +12,13 @@ const LONGEST: usize = 100;
 
 /// Returns the name of a case that has none: that of its file, if it can be a folder's.
 pub(crate) fn of_source(source: &str) -> &str {
+    of_source_or(source, "case")
+}
+
+/// Returns the name of what a file describes: that of the file, if it can be a folder's, else another one.
+pub(crate) fn of_source_or<'n>(source: &'n str, other: &'n str) -> &'n str {
     let stem = Path::new(source).file_stem().and_then(|stem| stem.to_str());
-    stem.filter(|stem| problem(stem).is_none()).unwrap_or("case")
+    stem.filter(|stem| problem(stem).is_none()).unwrap_or(other)
 }
 
 /// Reads the name of a case.

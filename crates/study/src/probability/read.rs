@@ -6,10 +6,10 @@ mod method;
 
 use std::path::Path;
 
-use input::file::{Expected, read_text};
-use input::{FileType, limits};
+use input::FileType;
 
 use super::plan::{Plan, Uncertain, UncertainValues};
+use crate::car::named;
 use crate::case::CaseError;
 use crate::case::name;
 use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
@@ -46,17 +46,13 @@ const UNCERTAIN_HELP: &str = "write [uncertain] and below it for example frictio
 const TRIED: f64 = 5.0;
 
 pub(super) fn file(path: &Path) -> Result<Plan, CaseError> {
-    const PLAN: Expected = Expected {
-        what: "plan of a probability",
-        types: &[FileType::Study, FileType::Case],
-        most: limits::TEXT_FILE,
-    };
-    let text = read_text(path, &PLAN).map_err(|error| {
-        let help = error
-            .help()
-            .unwrap_or_else(|| "docs/probability.md has a plan to begin with".to_owned());
-        Problem::new(error.to_string()).help(help)
-    })?;
+    let types = &[FileType::Study, FileType::Case];
+    let text = named::read(
+        path,
+        "plan of a probability",
+        types,
+        "docs/probability.md has a plan to begin with",
+    )?;
     let folder = path.parent().unwrap_or(Path::new(""));
     self::text(&path.display().to_string(), &text, folder)
 }
@@ -73,17 +69,7 @@ pub(super) fn text(file: &str, text: &str, folder: &Path) -> Result<Plan, CaseEr
     };
     top.allow_in(&KEYS, &[], "a plan", &mut problems);
     let given = |key: &str| tree.get(key).is_some();
-    let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
-    let mut own_name = stem
-        .filter(|stem| name::problem(stem).is_none())
-        .unwrap_or("plan")
-        .to_owned();
-    if given("name")
-        && let Some((text, node)) = top.text("name", &mut problems)
-    {
-        problems.extend(name::problem(text).map(|problem| problem.at(&node.place)));
-        own_name = text.to_owned();
-    }
+    let own_name = name::read(&top, name::of_source_or(file, "plan"), &mut problems);
     let title = top.optional_text("title", &mut problems);
     top.optional_text("remark", &mut problems);
     let mut set = match given("set") {
@@ -138,7 +124,7 @@ pub(super) fn text(file: &str, text: &str, folder: &Path) -> Result<Plan, CaseEr
         return Err(failed(problems));
     };
     Ok(Plan {
-        name: own_name,
+        name: own_name.unwrap_or_default(),
         title: title.unwrap_or_default(),
         uncertain: drafts.into_iter().map(|own| own.uncertain).collect(),
         set,

@@ -1,7 +1,7 @@
 //! What a survey of wedge rise varies besides rise and speed: conditions, each of a factor, and
 //! irregularities of a class of track.
 
-use std::fmt::Write;
+use toml::Value;
 
 use crate::assessment::conditions::Condition;
 use crate::case::CaseError;
@@ -132,36 +132,34 @@ pub fn chosen(names: &[String]) -> Result<Vec<Level>, CaseError> {
 }
 
 /// Lays irregularities of a class over a regime's track, a table as TOML in one value.
-pub(super) fn roughened(track: &str, class: u8) -> String {
-    let mut added = String::new();
-    for (seed, [spectrum, rails, direction]) in (1..).zip(SPECTRA) {
-        // Writing into a text cannot fail.
-        let _ = write!(
-            added,
-            "{}{{ spectrum = \"{spectrum}\", class = {class}, rails = \"{rails}\", direction = \
-             \"{direction}\", seed = {seed} }}",
-            if seed > 1 { ", " } else { "" }
-        );
-    }
-    let Ok(mut table) = toml::from_str::<toml::Table>(&format!("track = {track}")) else {
-        // A regime's track was read before: it is one value.
-        return track.to_owned();
+///
+/// # Errors
+/// The track is no table with a list of irregularities.
+pub(super) fn roughened(track: &str, class: u8) -> Result<String, CaseError> {
+    let no_table = || {
+        let problem = Problem::new(format!(
+            "irregularities of class {class} cannot lie over this track"
+        ));
+        problem.help("write the track as a table with its irregularities, or leave this condition out")
     };
-    let Ok(more) = toml::from_str::<toml::Table>(&format!("more = [{added}]")) else {
-        return track.to_owned();
-    };
-    let (Some(toml::Value::Table(track)), Some(toml::Value::Array(more))) =
-        (table.get_mut("track"), more.get("more").cloned())
-    else {
-        return track.to_owned();
-    };
-    let own = track
+    let mut own: Value = track.parse().map_err(|_| no_table())?;
+    let table = own.as_table_mut().ok_or_else(no_table)?;
+    let all = table
         .entry("irregularities")
-        .or_insert_with(|| toml::Value::Array(Vec::new()));
-    if let toml::Value::Array(all) = own {
-        all.extend(more);
+        .or_insert_with(|| Value::Array(Vec::new()));
+    let all = all.as_array_mut().ok_or_else(no_table)?;
+    for (seed, [spectrum, rails, direction]) in (1_i64..).zip(SPECTRA) {
+        let added = [
+            ("spectrum", Value::from(spectrum)),
+            ("class", Value::from(i64::from(class))),
+            ("rails", Value::from(rails)),
+            ("direction", Value::from(direction)),
+            ("seed", Value::from(seed)),
+        ];
+        let added = added.map(|(key, value)| (key.to_owned(), value));
+        all.push(Value::Table(added.into_iter().collect()));
     }
-    toml::Value::Table(track.clone()).to_string()
+    Ok(own.to_string())
 }
 
 #[cfg(test)]
@@ -183,9 +181,10 @@ mod tests {
     fn a_class_of_track_lies_over_a_track() {
         for name in super::super::REGIMES {
             let own = Regime::named(name).unwrap();
-            let rough = roughened(&own.track, 3);
+            let rough = roughened(&own.track, 3).unwrap();
             let count = |text: &str| text.matches("direction").count();
             assert_eq!(count(&rough), count(&own.track) + 3, "{rough}");
         }
+        assert!(roughened("\"a track\"", 3).is_err());
     }
 }

@@ -325,7 +325,7 @@ impl Survey {
         };
         let mut regime = self.regimes[wanted.regime].clone();
         for class in levels.iter().filter_map(|own| own.track_class) {
-            regime.track = level::roughened(&regime.track, class);
+            regime.track = level::roughened(&regime.track, class)?;
         }
         let speed = format!("{} mph", mph(wanted.speed));
         let request = Request {

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use input::file::{Expected, read_text};
-use input::{FileType, limits};
+use input::FileType;
 use quantity::Kind;
 
 use super::{Route, RoutePart, WheelWear, car_of};
+use crate::car::named;
 use crate::case::CaseError;
 use crate::case::name;
 use crate::case::problem::{Problem, Problems, TomlSource};
@@ -37,17 +37,13 @@ const WHEELS: Names<WheelWear> = &[
 const ROUNDED: f64 = 0.005;
 
 pub(super) fn file(path: &Path) -> Result<Route, CaseError> {
-    const ROUTE: Expected = Expected {
-        what: "route file",
-        types: &[FileType::Study, FileType::Case],
-        most: limits::TEXT_FILE,
-    };
-    let text = read_text(path, &ROUTE).map_err(|error| {
-        let help = error
-            .help()
-            .unwrap_or_else(|| "docs/route.md has a route to begin with".to_owned());
-        Problem::new(error.to_string()).help(help)
-    })?;
+    let types = &[FileType::Study, FileType::Case];
+    let text = named::read(
+        path,
+        "route file",
+        types,
+        "docs/route.md has a route to begin with",
+    )?;
     let folder = path.parent().unwrap_or(Path::new(""));
     self::text(&path.display().to_string(), &text, folder)
 }
@@ -64,17 +60,7 @@ pub(super) fn text(file: &str, text: &str, folder: &Path) -> Result<Route, CaseE
     };
     top.allow_in(&KEYS, &[], "a route", &mut problems);
     let given = |key: &str| tree.get(key).is_some();
-    let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
-    let mut own_name = stem
-        .filter(|stem| name::problem(stem).is_none())
-        .unwrap_or("route")
-        .to_owned();
-    if given("name")
-        && let Some((text, node)) = top.text("name", &mut problems)
-    {
-        problems.extend(name::problem(text).map(|problem| problem.at(&node.place)));
-        own_name = text.to_owned();
-    }
+    let own_name = name::read(&top, name::of_source_or(file, "route"), &mut problems);
     let title = match given("title") {
         true => top.text("title", &mut problems).map_or("", |(text, _)| text),
         false => "",
@@ -144,7 +130,7 @@ pub(super) fn text(file: &str, text: &str, folder: &Path) -> Result<Route, CaseE
         return Err(failed(problems));
     };
     let route = Route {
-        name: own_name,
+        name: own_name.unwrap_or_default(),
         title: title.to_owned(),
         service,
         steps,

@@ -10,7 +10,7 @@ use common::{done, wedgelab};
 use serde_json::Value;
 
 /// A short track with a dip of one rail.
-const SHORT: &str = r#"
+pub const SHORT: &str = r#"
 title = "a dip of the left rail"
 source = "made up for a test"
 speeds = ["30 mph", "40 mph"]
@@ -29,7 +29,8 @@ length = "20 ft"
 start = "55 ft"
 "#;
 
-fn limits(load: &str) -> String {
+/// A file of limits: the least wheel load on the short track.
+pub fn limits(load: &str) -> String {
     format!(
         "title = \"ours\"\nsource = \"made up\"\n[[limits]]\nname = \"load\"\nquantity = \"least wheel \
          load\"\n\

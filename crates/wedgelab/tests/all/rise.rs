@@ -1,33 +1,11 @@
 //! `wedgelab rise`, as a user calls it.
 
+use crate::assess::{SHORT, limits};
 use crate::common;
 use std::fs;
 
 use common::{done, wedgelab};
 use serde_json::Value;
-
-/// A short track with a dip of one rail.
-const SHORT: &str = r#"
-title = "a dip of the left rail"
-source = "made up for a test"
-speeds = ["30 mph", "40 mph"]
-range = ["20 mph", "50 mph"]
-reason = "the dip is short"
-distance = "30 ft"
-settle = "5 ft"
-[track]
-segments = [{ tangent = "400 ft" }]
-[[track.irregularities]]
-shape = "dip"
-rails = "left"
-direction = "vertical"
-depth = "0.3 in"
-length = "20 ft"
-start = "55 ft"
-"#;
-const LIMITS: &str = "title = \"ours\"\nsource = \"made up\"\n[[limits]]\nname = \"load\"\nquantity = \
-                      \"least wheel load\"\nmeasure = \"least_load_time\"\nregimes = [\"short\"]\nat_least = \
-                      \"5 %\"\n";
 
 /// The same bytes for any number of jobs; a greater number of runs keeps those that are there; all files are
 /// there and the page says what was found.
@@ -36,7 +14,7 @@ fn limits_a_survey_goes_on_and_does_not_depend_on_jobs() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     fs::write(at.join("short.toml"), SHORT).unwrap();
-    fs::write(at.join("limits.toml"), LIMITS).unwrap();
+    fs::write(at.join("limits.toml"), limits("5 %")).unwrap();
     let call = |out: &str, runs: &str, jobs: &str| {
         let own = format!(
             "rise car_tangent_loaded --regimes short.toml --limits limits.toml --factors mu_0.25 --set \
