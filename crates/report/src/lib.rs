@@ -38,6 +38,7 @@ pub mod assessment_work;
 pub mod comparison;
 pub mod csv;
 pub mod curves_files;
+pub mod drawn;
 pub mod figures;
 pub mod fit_files;
 pub mod half_truck_files;

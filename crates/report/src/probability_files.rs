@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
+use std::path::Path;
 
 use drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use quantity::SixDigits;
+use staging::{FileError, Folder};
 use study::car::limits::Bound;
 use study::design::Value;
 use study::probability::distribution::Distribution;
@@ -13,6 +15,7 @@ use study::probability::{
 };
 
 use crate::csv::{converted, rounded};
+use crate::drawn::Drawn;
 use crate::figures::{axis, digits};
 use crate::output_table::{Cell, Content, OutputTable};
 use crate::study_folder::value_column;
@@ -29,6 +32,26 @@ pub const PICTURE: &str = "probability.png";
 pub const WORDS: &str = "probability.txt";
 /// All of them.
 pub const NAMES: [&str; 5] = [SUMMARY, TABLE, FIGURE, PICTURE, WORDS];
+
+/// Writes all of them into a folder.
+///
+/// # Errors
+/// They cannot be written.
+pub fn write(
+    plan: &Plan,
+    summary: &ProbabilitySummary,
+    runs: &[ProbabilityRun],
+    path: &Path,
+) -> Result<(), FileError> {
+    let figure = Drawn::of(&figure(plan, summary, runs))?;
+    let counted = summary.estimate.runs;
+    Folder::check(path, &NAMES, true)?.write(|all| {
+        all.add(SUMMARY, |out| write_summary(summary, out))?;
+        all.add(TABLE, |out| write_table(plan, runs, counted, out))?;
+        figure.add(all, FIGURE, PICTURE)?;
+        all.add(WORDS, |out| out.write_all(words(plan, summary).as_bytes()))
+    })
+}
 
 /// Writes the summary.
 ///

@@ -2,15 +2,19 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
+use std::path::Path;
 
 use serde_json::{Value, json};
+use staging::{FileError, Folder};
 use study::car::limits::Bound;
 use study::rise::answer::{Answer, of_limit};
 use study::rise::bracket::{Bracket, SIXTEENTH};
 use study::rise::rigs::Rig;
 use study::rise::{Level, Question, Survey, inches, mph};
 
-use crate::page::{FILE_NAME, in_unit};
+use crate::drawn::Drawn;
+use crate::figures;
+use crate::page::{self, FILE_NAME, in_unit};
 use crate::rise_work::RiseFindings;
 
 /// The page of the answers.
@@ -31,6 +35,25 @@ pub const PICTURE: &str = "rise.png";
 pub const WORDS: &str = "rise.txt";
 /// All of them.
 pub const NAMES: [&str; 8] = [PAGE, METHOD, SUMMARY, TABLE, RUNS_TABLE, FIGURE, PICTURE, WORDS];
+
+/// Writes all of them into a folder.
+///
+/// # Errors
+/// They cannot be written.
+pub fn write(survey: &Survey, findings: &RiseFindings, path: &Path) -> Result<(), FileError> {
+    let figure = Drawn::of(&figures::rise::limits(survey, findings).figure)?;
+    let summary = summary(survey, findings);
+    let text = |out: &mut dyn Write, text: String| out.write_all(text.as_bytes());
+    Folder::check(path, &NAMES, true)?.write(|all| {
+        all.add(PAGE, |out| text(out, page::rise::render(survey, findings)))?;
+        all.add(METHOD, |out| text(out, page::rise::method(survey, findings)))?;
+        all.add(SUMMARY, |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
+        all.add(TABLE, |out| write_table(survey, findings, out))?;
+        all.add(RUNS_TABLE, |out| write_runs(survey, findings, out))?;
+        figure.add(all, FIGURE, PICTURE)?;
+        all.add(WORDS, |out| text(out, words(survey, findings)))
+    })
+}
 
 /// What other conditions do to a question: each condition with its answer at the car's own worst speed.
 pub struct Depends {

@@ -1,7 +1,9 @@
-//! The runs of a survey of wedge rise: those that a folder keeps, the others computed and kept there.
+//! The runs of a survey of wedge rise: those that a folder keeps, and those that come next, which threads of
+//! this process compute, or a program that has workers elsewhere.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::{fs, io};
@@ -9,17 +11,21 @@ use std::{fs, io};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use staging::{FileError, Folder};
+use study::design::StudySource;
+use study::records;
+use study::rise::bracket::Rise;
 use study::rise::plan::Batch;
 use study::rise::rigs::{OfRig, Rig};
-use study::rise::{Known, OfRun, Survey, Wanted};
+use study::rise::{Known, OfRun, Prepared, Survey, Wanted};
 
 use crate::assessment_work::in_parallel;
+use crate::study_folder::StudyFolderError;
 
 /// The folder of kept runs, in that of the survey.
 pub const RUNS: &str = "runs";
 
 /// What is known when a survey ends.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct RiseFindings {
     /// The runs.
     pub known: Known,
@@ -37,138 +43,240 @@ struct Kept<T> {
     found: T,
 }
 
-/// What survey and caller say to each other.
-pub struct Watch<'w> {
-    /// Becomes true when the survey is to stop.
-    pub stop: &'w AtomicBool,
-    /// Hears of each batch of runs before it begins, with the number of runs that are known.
-    pub begins: &'w (dyn Fn(&str, usize, usize) + Sync),
-    /// Hears of each run that is done.
-    pub done: &'w (dyn Fn() + Sync),
+/// A run or a rig that is to be computed.
+#[derive(Clone, Debug)]
+pub struct RiseTask {
+    name: String,
+    made_of: String,
+    what: What,
 }
 
-/// A folder of kept runs.
-struct Keeper<'w> {
+#[derive(Clone, Debug)]
+enum What {
+    Rig(Rig, Rise),
+    Run(Wanted, Box<Prepared>),
+}
+
+/// What came of a task.
+enum Found {
+    Rig(OfRig),
+    Run(Wanted, OfRun),
+}
+
+/// Tasks that do not wait for each other.
+#[derive(Clone, Debug)]
+pub struct RiseTasks {
+    /// What they look at.
+    pub about: &'static str,
+    /// The tasks.
+    pub tasks: Vec<RiseTask>,
+}
+
+/// The runs of a survey, and the folder that keeps them.
+#[derive(Debug)]
+pub struct RiseRuns {
+    survey: Arc<Survey>,
     folder: PathBuf,
     /// One file is written at a time.
     writes: Mutex<()>,
-    watch: &'w Watch<'w>,
+    rigs_are_next: bool,
+    findings: RiseFindings,
 }
 
-/// Makes all runs of a survey; none if it was stopped.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn run(
-    survey: &Survey,
-    path: &Path,
-    jobs: usize,
-    watch: &Watch<'_>,
-) -> Result<Option<RiseFindings>, FileError> {
-    let keeper = Keeper {
-        folder: path.join(RUNS),
-        writes: Mutex::new(()),
-        watch,
-    };
-    let mut findings = RiseFindings {
-        known: Known::new(),
-        rigs: Vec::new(),
-        before: 0,
-    };
-    let rigs = survey.rigs();
-    (watch.begins)("warp, damping, hunting", rigs.len(), 0);
-    for own in in_parallel(rigs.into(), jobs, |own| keeper.rig(survey, own)) {
-        let Some((was_there, own)) = own? else {
-            return Ok(None);
-        };
-        findings.before += usize::from(was_there);
-        findings.rigs.push(own);
-    }
-    findings.rigs.sort_by_key(|own| (own.rig, own.rise));
-    while let Some(Batch { about, runs }) = survey.next(&findings.known) {
-        (watch.begins)(about, runs.len(), findings.known.len());
-        let found = in_parallel(runs.into(), jobs, |wanted| {
-            let own = keeper.run(survey, &wanted);
-            own.map(|own| own.map(|own| (wanted, own)))
-        });
-        for own in found {
-            let Some((wanted, (was_there, run))) = own? else {
-                return Ok(None);
-            };
-            findings.before += usize::from(was_there);
-            findings.known.insert(wanted, run);
+impl RiseTask {
+    /// Returns the study whose only run it is, for a worker elsewhere; none of a rig, which is computed here.
+    #[must_use]
+    pub fn elsewhere(&self) -> Option<&StudySource> {
+        match &self.what {
+            What::Rig(..) => None,
+            What::Run(_, prepared) => Some(prepared.study().source()),
         }
     }
-    Ok(Some(findings))
 }
 
-/// A result, and whether it was there before; none if the survey was stopped.
-type Found<T> = Result<Option<(bool, T)>, FileError>;
-
-impl Keeper<'_> {
-    fn stops(&self) -> bool {
-        self.watch.stop.load(Ordering::Relaxed)
+impl RiseRuns {
+    /// Returns the runs of a survey in its folder.
+    #[must_use]
+    pub fn new(survey: Arc<Survey>, path: &Path) -> Self {
+        Self {
+            survey,
+            folder: path.join(RUNS),
+            writes: Mutex::new(()),
+            rigs_are_next: true,
+            findings: RiseFindings::default(),
+        }
     }
 
-    fn run(&self, survey: &Survey, wanted: &Wanted) -> Found<OfRun> {
-        if self.stops() {
-            return Ok(None);
+    /// Returns what is known.
+    #[must_use]
+    pub fn findings(&self) -> &RiseFindings {
+        &self.findings
+    }
+
+    /// Returns what is to be computed next; none if the survey has come to its end.
+    pub fn next_tasks(&mut self) -> Option<RiseTasks> {
+        if std::mem::take(&mut self.rigs_are_next) {
+            let tasks = self.missing_rigs();
+            if !tasks.is_empty() {
+                let about = "warp, damping, hunting";
+                return Some(RiseTasks { about, tasks });
+            }
         }
-        let prepared = match survey.prepare(wanted) {
+        while let Some(Batch { about, runs }) = self.survey.next(&self.findings.known) {
+            let missing = runs.into_iter().filter_map(|wanted| self.missing_run(wanted));
+            let tasks: Vec<RiseTask> = missing.collect();
+            if !tasks.is_empty() {
+                return Some(RiseTasks { about, tasks });
+            }
+        }
+        None
+    }
+
+    fn missing_rigs(&mut self) -> Vec<RiseTask> {
+        let mut tasks = Vec::new();
+        for (rig, rise) in self.survey.rigs() {
+            let made_of = self.survey.rig_made_of((rig, rise));
+            let name = format!("{}_rise_{rise}_16", rig.name());
+            match self.kept(&name, &made_of) {
+                Some(own) => self.know(Found::Rig(own), true),
+                None => tasks.push(RiseTask {
+                    name,
+                    made_of,
+                    what: What::Rig(rig, rise),
+                }),
+            }
+        }
+        tasks
+    }
+
+    /// Returns the task of a run; none if it is kept, or cannot begin.
+    fn missing_run(&mut self, wanted: Wanted) -> Option<RiseTask> {
+        let prepared = match self.survey.prepare(&wanted) {
             Ok(own) => own,
             Err(error) => {
-                (self.watch.done)();
-                return Ok(Some((false, survey.refused(error))));
+                let refused = self.survey.refused(error);
+                self.know(Found::Run(wanted, refused), false);
+                return None;
             }
         };
         let made_of = prepared.case().to_toml().unwrap_or_default();
-        self.kept(&survey.name_of(wanted), made_of, || Some(prepared.run()))
+        let name = self.survey.name_of(&wanted);
+        match self.kept(&name, &made_of) {
+            Some(own) => {
+                self.know(Found::Run(wanted, own), true);
+                None
+            }
+            None => Some(RiseTask {
+                name,
+                made_of,
+                what: What::Run(wanted, Box::new(prepared)),
+            }),
+        }
     }
 
-    fn rig(&self, survey: &Survey, (rig, rise): (Rig, u32)) -> Found<OfRig> {
-        if self.stops() {
-            return Ok(None);
+    fn know(&mut self, found: Found, was_there: bool) {
+        self.findings.before += usize::from(was_there);
+        match found {
+            Found::Rig(own) => {
+                self.findings.rigs.push(own);
+                self.findings.rigs.sort_by_key(|own| (own.rig, own.rise));
+            }
+            Found::Run(wanted, own) => {
+                self.findings.known.insert(wanted, own);
+            }
         }
-        let made_of = survey.rig_made_of((rig, rise));
-        self.kept(&format!("{}_rise_{rise}_16", rig.name()), made_of, || {
-            let go_on = || match self.stops() {
-                true => ControlFlow::Break("the survey was stopped".to_owned()),
-                false => ControlFlow::Continue(()),
+    }
+
+    /// Computes tasks, so many at a time, until `stop` becomes true; tells each that is kept. Returns whether
+    /// all were computed.
+    ///
+    /// # Errors
+    /// A file cannot be written; what was written before stays.
+    pub fn compute(
+        &mut self,
+        tasks: Vec<RiseTask>,
+        jobs: usize,
+        stop: &AtomicBool,
+        done: &(dyn Fn() + Sync),
+    ) -> Result<bool, FileError> {
+        let stops = || stop.load(Ordering::Relaxed);
+        let compute = |task: RiseTask| -> Result<Option<Found>, FileError> {
+            if stops() {
+                return Ok(None);
+            }
+            let found = match &task.what {
+                What::Run(wanted, prepared) => Found::Run(wanted.clone(), prepared.run()),
+                What::Rig(rig, rise) => {
+                    let go_on = || match stops() {
+                        true => ControlFlow::Break("the survey was stopped".to_owned()),
+                        false => ControlFlow::Continue(()),
+                    };
+                    Found::Rig(self.survey.rig((*rig, *rise), &go_on))
+                }
             };
-            let own = survey.rig((rig, rise), &go_on);
-            (!self.stops()).then_some(own)
-        })
+            // A rig that was stopped says nothing of the truck.
+            if matches!(found, Found::Rig(_)) && stops() {
+                return Ok(None);
+            }
+            self.write(&task, &found)?;
+            done();
+            Ok(Some(found))
+        };
+        let mut all = true;
+        for own in in_parallel(tasks.into(), jobs, compute) {
+            match own? {
+                Some(found) => self.know(found, false),
+                None => all = false,
+            }
+        }
+        Ok(all)
     }
 
-    /// Returns what a file keeps if it is made of this, else computes and keeps it.
-    fn kept<T: DeserializeOwned + Serialize>(
-        &self,
-        name: &str,
-        made_of: String,
-        compute: impl FnOnce() -> Option<T>,
-    ) -> Found<T> {
-        let file = format!("{name}.json");
-        let there = fs::read(self.folder.join(&file)).ok();
-        let there: Option<Kept<T>> = there.and_then(|text| serde_json::from_slice(&text).ok());
-        if let Some(own) = there.filter(|own| own.made_of == made_of && own.program == program()) {
-            (self.watch.done)();
-            return Ok(Some((true, own.found)));
+    /// Keeps the record of a task that a worker elsewhere computed.
+    ///
+    /// # Errors
+    /// It is no such record, or the file cannot be written.
+    pub fn keep(&mut self, task: &RiseTask, bytes: &[u8]) -> Result<(), StudyFolderError> {
+        let What::Run(wanted, prepared) = &task.what else {
+            return Err(StudyFolderError::ForeignBytes);
+        };
+        let found = records::read(prepared.study().fingerprint(), bytes);
+        let [record] = found.records.as_slice() else {
+            return Err(StudyFolderError::ForeignBytes);
+        };
+        let found = Found::Run(wanted.clone(), prepared.of(record));
+        self.write(task, &found)?;
+        self.know(found, false);
+        Ok(())
+    }
+
+    /// Returns what a file keeps, if it is made of this.
+    fn kept<T: DeserializeOwned>(&self, name: &str, made_of: &str) -> Option<T> {
+        let text = fs::read(self.folder.join(format!("{name}.json"))).ok()?;
+        let own: Kept<T> = serde_json::from_slice(&text).ok()?;
+        (own.made_of == made_of && own.program == program()).then_some(own.found)
+    }
+
+    fn write(&self, task: &RiseTask, found: &Found) -> Result<(), FileError> {
+        match found {
+            Found::Rig(own) => self.write_as(task, own),
+            Found::Run(_, own) => self.write_as(task, own),
         }
-        let Some(found) = compute() else { return Ok(None) };
+    }
+
+    fn write_as<T: Serialize>(&self, task: &RiseTask, found: T) -> Result<(), FileError> {
+        let file = format!("{}.json", task.name);
         let own = Kept {
             program: program(),
-            made_of,
+            made_of: task.made_of.clone(),
             found,
         };
-        let one_at_a_time = self.writes.lock().unwrap_or_else(PoisonError::into_inner);
+        let _one_at_a_time = self.writes.lock().unwrap_or_else(PoisonError::into_inner);
         Folder::check(&self.folder, &[&file], true)?.write(|files| {
             files.add(&file, |out| {
                 serde_json::to_writer_pretty(out, &own).map_err(io::Error::from)
             })
-        })?;
-        drop(one_at_a_time);
-        (self.watch.done)();
-        Ok(Some((false, own.found)))
+        })
     }
 }
 

@@ -13,8 +13,10 @@
 //! is passed over and its variant computed again. The table and the page appear whole or not at all
 //! ([`staging`]).
 
+use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -181,9 +183,15 @@ impl StudyFolder {
 
     /// Returns the numbers of the variants of a part.
     #[must_use]
-    pub fn numbers(&self, part: u64) -> std::ops::Range<u64> {
+    pub fn numbers(&self, part: u64) -> Range<u64> {
         let start = part * self.part_size;
         start..(start + self.part_size).min(self.count)
+    }
+
+    /// Returns the part of a variant.
+    #[must_use]
+    pub fn part_of(&self, number: u64) -> u64 {
+        number / self.part_size
     }
 
     fn file_of(&self, part: u64) -> PathBuf {
@@ -248,7 +256,7 @@ impl StudyFolder {
     pub fn keep(&self, record: &Record) -> Result<(), StudyFolderError> {
         let mut bytes = Vec::new();
         record.write(self.fingerprint, &mut bytes);
-        let file = self.file_of(record.number / self.part_size);
+        let file = self.file_of(self.part_of(record.number));
         let _one_at_a_time = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
         let failed = |reason| StudyFolderError::Append {
             file: file.clone(),
@@ -282,6 +290,36 @@ impl StudyFolder {
         Ok(found.records.len() as u64)
     }
 
+    /// Keeps those of the records of a part that are not there yet; gives their number.
+    ///
+    /// # Errors
+    /// The part cannot be read, the bytes hold records of another study or part, or they cannot be written.
+    pub fn keep_new(&self, part: u64, bytes: &[u8]) -> Result<u64, StudyFolderError> {
+        let missing = self.missing(part)?;
+        let found = records::read(self.fingerprint, bytes);
+        let numbers = self.numbers(part);
+        let is_foreign = |record: &Record| !numbers.contains(&record.number);
+        if found.foreign || found.records.iter().any(is_foreign) {
+            return Err(StudyFolderError::ForeignBytes);
+        }
+        let new: BTreeMap<u64, Record> = found
+            .records
+            .into_iter()
+            .filter(|record| missing.binary_search(&record.number).is_ok())
+            .map(|record| (record.number, record))
+            .collect();
+        new.values().try_for_each(|record| self.keep(record))?;
+        Ok(new.len() as u64)
+    }
+
+    /// Refuses another study whose description was found elsewhere, in a `place`.
+    ///
+    /// # Errors
+    /// It is another study, or no description of one.
+    pub fn compare(&self, place: &Path, description: &str) -> Result<(), StudyFolderError> {
+        error::compare(place, &place.join(STUDY_FILE), description, &self.description)
+    }
+
     /// Makes the table of all records, in the order of their numbers, as Parquet and as CSV, and shows each
     /// row to `each` with the values of the factors. Memory does not grow with the number of records.
     ///
@@ -298,10 +336,8 @@ impl StudyFolder {
         let mut unread = None;
         let written = folder.write(|files| {
             files.add(TABLE_FILE, |out| {
-                let metadata = [(STUDY_KEY, self.description.clone())];
-                let columns = table.descriptions().to_vec();
-                let mut rows = TableWriter::new(out, columns, Storage::Values, &metadata).map_err(plain)?;
-                self.for_each(&mut unread, |record| {
+                let mut rows = self.rows(&table, out)?;
+                self.for_each(0..self.parts(), &mut unread, |record| {
                     let row = (study.values(record.number), record);
                     rows.row(table.cells(&row)).map_err(plain)?;
                     each(&row.0, &row.1);
@@ -312,7 +348,7 @@ impl StudyFolder {
             // The parts are read again: the rows need not be kept.
             files.add(TABLE_CSV_FILE, |out| {
                 let mut lines = csv::Lines::new(table.descriptions(), out)?;
-                self.for_each(&mut unread, |record| {
+                self.for_each(0..self.parts(), &mut unread, |record| {
                     lines.row(table.cells(&(study.values(record.number), record)))
                 })
             })
@@ -323,14 +359,51 @@ impl StudyFolder {
         }
     }
 
-    /// Shows all records to `each`, in the order of their numbers; why they cannot be read is left in
-    /// `unread`.
+    /// Returns the rows of a part that has all its records as a Parquet file of its own: those of all parts,
+    /// in their order, are the table of [`StudyFolder::merge`].
+    ///
+    /// # Errors
+    /// A record is missing, or the part cannot be read.
+    pub fn part_table(&self, study: &Study, part: u64) -> Result<Vec<u8>, StudyFolderError> {
+        let table = table(study);
+        let (mut bytes, mut unread) = (Vec::new(), None);
+        let mut write = || {
+            let mut rows = self.rows(&table, &mut bytes)?;
+            self.for_each(part..part + 1, &mut unread, |record| {
+                let row = (study.values(record.number), record);
+                rows.row(table.cells(&row)).map_err(plain)
+            })?;
+            rows.finish().map_err(plain)
+        };
+        match (write(), unread) {
+            (_, Some(error)) => Err(error),
+            (Err(reason), None) => Err(StudyFolderError::Table {
+                file: self.file_of(part),
+                reason,
+            }),
+            (Ok(()), None) => Ok(bytes),
+        }
+    }
+
+    fn rows<W: Write + Send>(
+        &self,
+        table: &OutputTable<'_, (Vec<Option<Value>>, Record)>,
+        out: W,
+    ) -> io::Result<TableWriter<W>> {
+        let metadata = [(STUDY_KEY, self.description.clone())];
+        let columns = table.descriptions().to_vec();
+        TableWriter::new(out, columns, Storage::Values, &metadata).map_err(plain)
+    }
+
+    /// Shows all records of some parts to `each`, in the order of their numbers; why they cannot be read is
+    /// left in `unread`.
     fn for_each(
         &self,
+        parts: Range<u64>,
         unread: &mut Option<StudyFolderError>,
         mut each: impl FnMut(Record) -> io::Result<()>,
     ) -> io::Result<()> {
-        for part in 0..self.parts() {
+        for part in parts {
             let found =
                 self.part(part)
                     .and_then(|found| match self.numbers(part).count() - found.records.len() {

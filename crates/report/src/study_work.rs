@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use study::design::Study;
 use study::records;
 
+use crate::assessment_work::in_parallel;
 use crate::page::study as page;
 use crate::study_digest::Digest;
 use crate::study_folder::{StudyFolder, StudyFolderError};
@@ -106,6 +107,44 @@ pub fn compute(
         Some(error) => Err(error),
         None => Ok(()),
     }
+}
+
+/// Returns so many of the runs that have no record yet, spread over the study: by them it can be judged how
+/// long the others take.
+///
+/// # Errors
+/// A part cannot be read.
+pub fn sample(study: &Study, folder: &StudyFolder, count: u64) -> Result<Vec<u64>, StudyFolderError> {
+    let spread = (0..count).map(|own| study.count() * (2 * own + 1) / (2 * count));
+    let mut sample = Vec::new();
+    for number in spread {
+        let missing = folder.missing(folder.part_of(number))?;
+        if sample.last() != Some(&number) && missing.binary_search(&number).is_ok() {
+            sample.push(number);
+        }
+    }
+    Ok(sample)
+}
+
+/// Computes these runs, so many at a time, until `stop` becomes true, and keeps them. Tells each.
+///
+/// # Errors
+/// A part cannot be written to.
+pub fn compute_some(
+    study: &Study,
+    folder: &StudyFolder,
+    numbers: Vec<u64>,
+    jobs: usize,
+    stop: &AtomicBool,
+    done: &(dyn Fn() + Sync),
+) -> Result<(), StudyFolderError> {
+    let kept = in_parallel(numbers.into(), jobs, |number| {
+        match stop.load(Ordering::Relaxed) {
+            true => Ok(()),
+            false => folder.keep(&records::run(study, number)).map(|()| done()),
+        }
+    });
+    kept.into_iter().collect()
 }
 
 /// Makes the table and the page of all runs.

@@ -45,6 +45,7 @@ pub mod probability;
 pub mod progress;
 mod reader;
 pub mod records;
+pub mod remote_run;
 pub mod result;
 pub mod rise;
 pub mod route;

@@ -29,6 +29,8 @@ MODULES = {
     "many": "wl.",
     "study": "wl.",
     "assessment": "wl.",
+    "rise": "wl.",
+    "probability": "wl.",
     "cluster": "wl.cluster.",
     "figures": "wl.",
     "quasi_static": "wl.",

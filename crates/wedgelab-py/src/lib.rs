@@ -10,6 +10,7 @@
 use pyo3::prelude::*;
 
 mod assessment;
+mod errand;
 mod errors;
 mod figures;
 mod half_truck;
@@ -17,8 +18,10 @@ mod many;
 mod model_case;
 mod nucars;
 mod outcome;
+mod probability;
 mod quantity;
 mod quasi_static;
+mod rise;
 mod run;
 mod step;
 mod study;
@@ -32,6 +35,8 @@ mod _wedgelab {
 
     #[pymodule_export]
     use crate::assessment::NativeAssessment;
+    #[pymodule_export]
+    use crate::errand::run_errand;
     #[pymodule_export]
     use crate::errors::fail_inside;
     #[pymodule_export]
@@ -49,9 +54,13 @@ mod _wedgelab {
     #[pymodule_export]
     use crate::outcome::NativeResult;
     #[pymodule_export]
+    use crate::probability::{NativePlan, NativePlanRuns};
+    #[pymodule_export]
     use crate::quantity::{Quantity, to_si};
     #[pymodule_export]
     use crate::quasi_static::slide;
+    #[pymodule_export]
+    use crate::rise::{NativeRise, NativeRiseRuns};
     #[pymodule_export]
     use crate::step::NativeWedge;
     #[pymodule_export]

@@ -227,6 +227,23 @@ impl NativeStudyFolder {
         self.with(py, |folder| folder.keep_all(records))
     }
 
+    /// Keeps those of the records of a part that are not there yet; gives their number.
+    fn keep_new(&self, py: Python<'_>, part: u64, records: &[u8]) -> PyResult<u64> {
+        self.with(py, |folder| folder.keep_new(part, records))
+    }
+
+    /// Refuses another study whose description was found in a place.
+    fn compare(&self, py: Python<'_>, place: PathBuf, description: &str) -> PyResult<()> {
+        self.with(py, |folder| folder.compare(&place, description))
+    }
+
+    /// Returns the rows of a part that has all its records as a Parquet file of its own.
+    fn part_table<'py>(&self, py: Python<'py>, part: u64) -> PyResult<Bound<'py, PyBytes>> {
+        let study = &self.study;
+        let bytes = self.with(py, |folder| folder.part_table(study, part))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
     /// Computes what is missing on threads of this process; `progress` is called with how many are done now.
     #[pyo3(signature = (jobs, progress))]
     fn compute(&self, py: Python<'_>, jobs: usize, progress: Option<Py<PyAny>>) -> PyResult<u64> {

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use miette::{Diagnostic, MietteHandlerOpts, Report};
 use nucars::file_sets::LoadError;
 use report::comparison::ComparisonError;
+use report::drawn::DrawError;
 use report::page::assessment::AgainstError;
 use report::run_folder::RunFolderError;
 use report::table::TableError;
@@ -56,6 +57,12 @@ impl Failure {
 impl From<CaseError> for Failure {
     fn from(error: CaseError) -> Self {
         Self::Input(error.into())
+    }
+}
+
+impl From<DrawError> for Failure {
+    fn from(error: DrawError) -> Self {
+        Self::Failed(error.into())
     }
 }
 

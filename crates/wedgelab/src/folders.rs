@@ -42,7 +42,7 @@ pub fn bytes(file: &Path) -> u64 {
 }
 
 /// Returns a number of bytes in words, to three digits.
-fn size(bytes: u64) -> String {
+pub fn size(bytes: u64) -> String {
     let [kilo, mega] = [1e3, 1e6].map(|unit| bytes as f64 / unit);
     match bytes {
         0..1_000 => format!("{bytes} bytes"),

@@ -2,7 +2,7 @@
 
 mod adjust;
 mod commands;
-mod drawn;
+mod cost;
 mod execute;
 mod failure;
 mod folders;

@@ -152,7 +152,7 @@ impl Steady {
 }
 
 /// Returns a time for people.
-fn shown(seconds: f64) -> String {
+pub fn shown(seconds: f64) -> String {
     match seconds {
         s if s < 90.0 => format!("{s:.0} s"),
         s if s < 5400.0 => format!("{:.0} min", s / 60.0),

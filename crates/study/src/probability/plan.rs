@@ -13,6 +13,7 @@ use crate::design::{Value, fingerprint};
 use crate::measures::Definitions;
 use crate::models::{AnyCase, CaseSource};
 use crate::records::{self, Record, Status};
+use crate::remote_run::RemoteRun;
 
 /// Version of what a plan computes: it grows when the same document asks for other runs.
 const PLAN_VERSION: u32 = 1;
@@ -214,11 +215,27 @@ impl Plan {
     /// # Errors
     /// The values do not go together.
     pub fn case(&self, point: &[f64]) -> Result<AnyCase, CaseError> {
+        let all: Vec<String> = self.set.iter().cloned().chain(self.overrides(point)).collect();
+        self.source.case(&all)
+    }
+
+    /// Returns the settings of a point, as `--set` takes them.
+    fn overrides(&self, point: &[f64]) -> Vec<String> {
         let values = self.values(point);
         let uncertain = self.uncertain.iter().zip(&values);
-        let uncertain = uncertain.flat_map(|(own, value)| own.overrides(value));
-        let all: Vec<String> = self.set.iter().cloned().chain(uncertain).collect();
-        self.source.case(&all)
+        uncertain.flat_map(|(own, value)| own.overrides(value)).collect()
+    }
+
+    /// Returns the run of a point for a worker elsewhere.
+    #[must_use]
+    pub fn elsewhere(&self, number: u64, point: &[f64]) -> RemoteRun {
+        RemoteRun {
+            source: self.source.clone(),
+            common: self.set.clone(),
+            own: self.overrides(point),
+            number,
+            fingerprint: self.fingerprint(),
+        }
     }
 
     /// Runs the case at a point. Whatever goes wrong, it is a record.

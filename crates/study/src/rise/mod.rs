@@ -35,8 +35,9 @@ use crate::car::limits::{Limit, LimitSet};
 use crate::car::regime::Regime;
 use crate::case::CaseError;
 use crate::case::problem::Problem;
+use crate::design::Study;
 use crate::models::{AnyCase, CaseSource};
-use crate::records;
+use crate::records::{self, Record};
 
 /// Regimes that are run if none are asked for: rocking, bouncing, curves, hunting.
 pub const REGIMES: [&str; 5] = [
@@ -367,12 +368,22 @@ impl Prepared {
         &self.case
     }
 
+    /// Returns the study whose only run it is.
+    #[must_use]
+    pub fn study(&self) -> &Study {
+        &self.assessment.study
+    }
+
     /// Runs it.
     #[must_use]
     pub fn run(&self) -> OfRun {
-        let study = &self.assessment.study;
-        let record = records::run_case(study, 0, &self.case);
-        let own = self.assessment.assess(&study.values(0), &record);
+        self.of(&records::run_case(self.study(), 0, &self.case))
+    }
+
+    /// Returns what came of it, from its record.
+    #[must_use]
+    pub fn of(&self, record: &Record) -> OfRun {
+        let own = self.assessment.assess(&self.study().values(0), record);
         let limits = own.checks.iter().map(|check| {
             let limit = &self.assessment.limits.limits[check.limit];
             OfLimit {

@@ -32,6 +32,7 @@ from .errors import (
 from .figures import Curve, Figure, Mark, Panel, report_figures
 from .many import run_many
 from .nucars import HalfTruckCase
+from .probability import Probability, ProbabilityOutcome
 from .quasi_static import Sliding, quasi_static
 from .result import (
     CarResult,
@@ -45,6 +46,7 @@ from .result import (
     VehicleResult,
     UnknownColumn,
 )
+from .rise import RiseAnswer, RiseOutcome, RiseSurvey
 from .sections import (
     BolsterSection,
     ContactSection,
@@ -57,7 +59,7 @@ from .sections import (
     WedgeSection,
 )
 from .step import COORDINATES, Forces, Motion, Wedge
-from .study import Study, StudyColumn, StudyOutcome
+from .study import Study, StudyColumn, StudyCost, StudyOutcome
 from .truck import TruckCase
 from .vehicle import VehicleCase
 
@@ -96,11 +98,16 @@ __all__ = [
     "Panel",
     "PlausibilityWarning",
     "PointWarning",
+    "Probability",
+    "ProbabilityOutcome",
     "Problem",
     "Quantity",
     "Ramp",
     "Record",
     "Result",
+    "RiseAnswer",
+    "RiseOutcome",
+    "RiseSurvey",
     "RunError",
     "SideFrameSection",
     "SimulationSection",
@@ -109,6 +116,7 @@ __all__ = [
     "StepError",
     "Study",
     "StudyColumn",
+    "StudyCost",
     "StudyError",
     "StudyOutcome",
     "SweptSine",

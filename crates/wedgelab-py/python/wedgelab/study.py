@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -23,10 +24,11 @@ from .case import Case
 from .errors import StudyError
 from .many import Progress, _teller, _workers
 from .nucars import HalfTruckCase
+from .storage import mirrored
 from .truck import TruckCase
 from .vehicle import VehicleCase
 
-__all__ = ["Study", "StudyColumn", "StudyOutcome"]
+__all__ = ["Study", "StudyColumn", "StudyCost", "StudyOutcome"]
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -75,6 +77,28 @@ class StudyOutcome:
     """Why, of the first ones that are not complete, by their numbers."""
     warnings: list[str]
     """What makes complete runs doubtful: energy ledgers that do not close to 1e-3."""
+
+
+@dataclass(frozen=True)
+class StudyCost:
+    """What the runs of a study cost, judged by a sample of them."""
+
+    runs: int
+    """Number of runs."""
+    sample: int
+    """Number of runs of the sample."""
+    seconds_per_run: float
+    """Mean time of a run of the sample, s."""
+    least: float
+    """The least, s."""
+    largest: float
+    """The largest, s."""
+    core_hours: float
+    """Time of all runs on one core, h."""
+    hours: float
+    """Time of all runs on the threads that were asked for, h."""
+    bytes: int
+    """Space of all runs on the disk, about, bytes."""
 
 
 class Study:
@@ -147,18 +171,54 @@ class Study:
         jobs: int | None = None,
         progress: Progress = False,
         yes: bool = False,
+        store: Any = None,
     ) -> StudyOutcome:
         """Runs what the folder lacks (by default one with the study's name) on ``jobs`` threads, then makes its table and page.
 
         The folder is that of ``wedgelab study``: what the command began goes on here, and the other way round. Every run is kept as soon
         as it is done; Ctrl-C ends this call after the runs under way. ``progress`` as in ``run_many``. Studies of more than a million
-        runs need ``yes=True``.
+        runs need ``yes=True``. ``store`` is an address in object storage where the folder is mirrored, such as ``"s3://bucket/friction"``, or a
+        store of the package obstore: runs that are there are not computed again, on whatever machine, and each part of the
+        table appears there as a Parquet file. One process at a time works there.
         """
-        with opened(self, folder, yes) as (native, path):
+        with opened(self, folder, yes) as (native, path), mirrored(store, native, path) as send:
             before, _ = native.begun()
             tell = _teller(progress, self.count)
-            native.compute(_workers(jobs), None if tell is None else lambda now: tell(before + now))
+
+            def told(now: int) -> None:
+                send()
+                if tell is not None:
+                    tell(before + now)
+
+            native.compute(_workers(jobs), told)
             return finished(self, native, path, before)
+
+    def cost(self, *, sample: int = 4, jobs: int | None = None) -> StudyCost:
+        """Computes ``sample`` runs, spread over the study, one after the other, and judges by them what all runs cost on ``jobs`` threads.
+
+        The runs are not kept. What else the machine does meanwhile counts; runs at a time slow each other down where they share caches.
+        """
+        if isinstance(sample, bool) or not isinstance(sample, int) or sample < 1:
+            raise StudyError(f"sample is {sample!r}; a whole number, 1 or more, is expected")
+        numbers = sorted({self.count * (2 * own + 1) // (2 * sample) for own in range(sample)})
+        seconds: list[float] = []
+        size = 0
+        for number in numbers:
+            start = time.perf_counter()
+            size += len(self._native.records([number]))
+            seconds.append(time.perf_counter() - start)
+        mean = sum(seconds) / len(seconds)
+        return StudyCost(
+            runs=self.count,
+            sample=len(numbers),
+            seconds_per_run=mean,
+            least=min(seconds),
+            largest=max(seconds),
+            core_hours=mean * self.count / 3600.0,
+            hours=mean * self.count / 3600.0 / _workers(jobs),
+            # A record, and a row of each table.
+            bytes=3 * size * self.count // len(numbers),
+        )
 
     def _number(self, number: int) -> int:
         if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < self.count:

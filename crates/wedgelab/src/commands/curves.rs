@@ -8,11 +8,11 @@ use clap::Args;
 use quantity::{Kind, System as Units};
 use report::csv::converted;
 use report::curves_files::{self, LabeledLoop, NAMES};
+use report::drawn::Drawn;
 use report::terminal::TerminalTable;
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
 use super::warp::{STOPPING, Varied, interrupted, run};
-use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;

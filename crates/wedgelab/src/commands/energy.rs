@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, SixDigits, System as Units};
+use report::drawn::Drawn;
 use report::figures::power_flow;
 use report::run_files::{CASE_FILE_NAME, RunFiles};
 use report::summary::write_json;
@@ -17,7 +18,6 @@ use study::losses::{EnergySummary, LossSplit};
 use study::summary::{RunSummary, SummaryValue};
 
 use super::run::read_any;
-use crate::drawn::Drawn;
 use crate::execute::{compute, unsound_unwritten};
 use crate::failure::{Failure, Message, say};
 use crate::folders;

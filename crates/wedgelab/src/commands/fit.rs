@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use rayon::prelude::*;
+use report::drawn::Drawn;
 use report::fit_files::{self, FitFigure};
 use report::run_files;
 use report::table::{ResultTable as Measurements, TableColumn};
@@ -18,7 +19,6 @@ use study::models::{AnyCase, CaseSource};
 
 use super::run::{is_built_in, read_any};
 use crate::adjust::{self, Names, seconds};
-use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use report::drawn::Drawn;
 use report::lock_up_files::{self, NAMES};
 use study::lock_up::{LockUpMap, MapError, MapRange, RigOutcome, map};
 
 use super::run::read;
-use crate::drawn::Drawn;
 use crate::execute::jobs;
 use crate::failure::{Failure, Message};
 use crate::folders;

@@ -7,13 +7,13 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, Quantity, SixDigits};
+use report::drawn::png;
 use report::plot;
 use report::table::ResultTable;
 use study::signal::{Spectrum, SpectrumError};
 
 use super::compare::label;
 use crate::adjust::TimeSpan;
-use crate::drawn::png;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;

@@ -3,16 +3,17 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Instant;
 
 use clap::Args;
 use report::probability_files::{self as files, NAMES};
-use report::probability_work::{ProbabilityRuns, Unfinished};
-use staging::Folder;
-use study::probability::{Plan, ProbabilitySummary, estimate, indices};
+use report::probability_work::{ProbabilityNext, ProbabilityRuns};
+use study::probability::Plan;
 
-use crate::drawn::Drawn;
+use crate::cost::{Cost, EACH, WORTH};
 use crate::execute::jobs;
-use crate::failure::{Failure, Message};
+use crate::failure::{Failure, Message, say};
 use crate::interrupt;
 use crate::json;
 use crate::progress::Steady;
@@ -56,15 +57,18 @@ pub struct Arguments {
     json: bool,
 }
 
+/// Bytes that a run leaves on the disk, about: its record and its row.
+const RUN_BYTES: u64 = 1000;
+
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    let plan = Plan::read(&arguments.plan)?;
+    let plan = Arc::new(Plan::read(&arguments.plan)?);
     let path = arguments
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}_probability", plan.name)));
-    let mut runs = ProbabilityRuns::open(&path, &plan, jobs(arguments.jobs))?;
+    let mut work = ProbabilityRuns::open(&path, Arc::clone(&plan))?;
     let kept = format!(
         "the runs that ended are kept in {}. The same command goes on from there.",
         path.display()
@@ -73,37 +77,44 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         "stopping: the runs under way are finished and kept (once more: ends at once)",
         &kept,
     );
-    let progress = Steady::new("runs", plan.most_runs(), runs.kept(), arguments.quiet);
-    let mut evaluate = |points: &[Vec<f64>]| runs.answers(points, interrupt::flag(), &|| progress.done());
-    let (dimensions, seed) = (plan.uncertain.len(), plan.seed());
-    let of = (dimensions, plan.limit.goal, plan.confidence);
-    let found = estimate(&plan.estimator, of, &mut evaluate);
-    let found = found.and_then(|found| {
-        let sobol = match plan.indices {
-            0 => None,
-            samples => indices::sobol(samples, (dimensions, seed, plan.confidence), &mut evaluate)?,
-        };
-        Ok((found, sobol))
-    });
+    let progress = Steady::new("runs", plan.most_runs(), work.kept(), arguments.quiet);
+    let began = work.kept();
+    let (summary, runs) = loop {
+        match work.comes_next() {
+            ProbabilityNext::Found(summary, runs) => break (summary, runs),
+            ProbabilityNext::Missing(_) if interrupt::wanted() => {
+                progress.finish();
+                return Err(Failure::Interrupted(Message::new(interrupt::REASON, kept).into()));
+            }
+            ProbabilityNext::Missing(tasks) => {
+                let jobs = jobs(arguments.jobs);
+                let left = plan.most_runs() - work.kept();
+                let sample = EACH * jobs;
+                let judges = work.kept() == began && left > WORTH * sample as u64;
+                let some = if judges && !arguments.quiet {
+                    sample
+                } else {
+                    tasks.len()
+                };
+                let some: Vec<_> = tasks.into_iter().take(some).collect();
+                let (count, clock) = (some.len() as u64, Instant::now());
+                work.compute(some, jobs, interrupt::flag(), &|| progress.done())?;
+                let cost = Cost {
+                    left,
+                    sample: count,
+                    took: clock.elapsed(),
+                    jobs,
+                    bytes: RUN_BYTES,
+                };
+                if judges && !arguments.quiet && cost.is_long() && !interrupt::wanted() {
+                    say(&format!("up to {}", cost.words()));
+                }
+            }
+        }
+    };
     progress.finish();
-    let (found, sobol) = found.map_err(|error| match error {
-        Unfinished::Folder(error) => error.into(),
-        Unfinished::Stopped => Failure::Interrupted(Message::new(interrupt::REASON, kept.clone()).into()),
-    })?;
     interrupt::ends(&kept);
-    let summary = ProbabilitySummary::new(&plan, found, sobol, &runs.runs);
-    let figure = Drawn::of(&files::figure(&plan, &summary, &runs.runs))?;
-    let words = files::words(&plan, &summary);
-    let counted = summary.estimate.runs;
-    let folder = Folder::check(&path, &NAMES, true)?;
-    folder.write(|all| {
-        all.add(files::SUMMARY, |out| files::write_summary(&summary, out))?;
-        all.add(files::TABLE, |out| {
-            files::write_table(&plan, &runs.runs, counted, out)
-        })?;
-        figure.add(all, files::FIGURE, files::PICTURE)?;
-        all.add(files::WORDS, |out| out.write_all(words.as_bytes()))
-    })?;
+    files::write(&plan, &summary, &runs, &path)?;
     if arguments.json {
         json::print(&serde_json::json!({
             "folder": path,
@@ -111,7 +122,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             "probability": summary.estimate.probability,
             "bounds": summary.estimate.bounds,
             "confidence": summary.estimate.confidence,
-            "runs": runs.runs.len(),
+            "runs": runs.len(),
             "beyond": summary.estimate.beyond,
             "unknown": summary.estimate.unknown,
             "warnings": summary.warnings,
@@ -121,7 +132,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     writeln!(
         out,
-        "{words}\nWritten into {}: {}.",
+        "{}\nWritten into {}: {}.",
+        files::words(&plan, &summary),
         path.display(),
         NAMES.join(", ")
     )?;

@@ -1,18 +1,16 @@
 //! `wedgelab rise`: what wedge rise costs a car, and the rise at which each limit is reached.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Args;
 use quantity::{Kind, Quantity};
-use report::page::rise as page;
 use report::rise_files::{self as files, NAMES};
-use report::rise_work::{self, RiseFindings, Watch};
-use staging::Folder;
+use report::rise_work::{RiseRuns, RiseTasks};
 use study::rise::{RUNS, RiseRequest, Survey, inches};
 
-use crate::drawn::Drawn;
 use crate::execute::jobs;
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
@@ -122,24 +120,25 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     );
     let all = (survey.request.most + survey.rigs().len()) as u64;
     let progress = Steady::new("runs", all, 0, arguments.quiet);
-    let watch = Watch {
-        stop: interrupt::flag(),
-        begins: &|about, runs, known| {
-            if !arguments.quiet {
-                say(&format!("{about}: {runs} runs, {known} are known"));
-            }
-        },
-        done: &|| progress.done(),
-    };
-    let found = rise_work::run(&survey, &path, jobs, &watch);
+    let survey = Arc::new(survey);
+    let mut runs = RiseRuns::new(Arc::clone(&survey), &path);
+    while let Some(RiseTasks { about, tasks }) = runs.next_tasks() {
+        if !arguments.quiet {
+            let (count, known) = (tasks.len(), runs.findings().known.len());
+            say(&format!("{about}: {count} runs, {known} are known"));
+        }
+        let computed = runs.compute(tasks, jobs, interrupt::flag(), &|| progress.done());
+        if !computed? {
+            progress.finish();
+            let message = Message::new("the survey was interrupted", kept);
+            return Err(Failure::Interrupted(message.into()));
+        }
+    }
     progress.finish();
-    let Some(findings) = found? else {
-        let message = Message::new("the survey was interrupted", kept);
-        return Err(Failure::Interrupted(message.into()));
-    };
-    write(&survey, &findings, &path)?;
+    let findings = runs.findings();
+    files::write(&survey, findings, &path)?;
     let mut out = io::stdout().lock();
-    write!(out, "{}", files::words(&survey, &findings))?;
+    write!(out, "{}", files::words(&survey, findings))?;
     writeln!(out, "\nWritten into {}: {}.", path.display(), NAMES.join(", "))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -167,27 +166,3 @@ fn cost(survey: &Survey, jobs: usize) -> String {
 
 /// CPU time of a second of a car in a regime, s: a guess, between 0.5 and 1.5 on machines of 2024.
 const CPU_TIME: f64 = 1.0;
-
-fn write(survey: &Survey, findings: &RiseFindings, path: &Path) -> Result<(), Failure> {
-    let figure = Drawn::of(&report::figures::rise::limits(survey, findings).figure)?;
-    let folder = Folder::check(path, &NAMES, true)?;
-    let summary = files::summary(survey, findings);
-    folder.write(|all| {
-        all.add(files::PAGE, |out| {
-            out.write_all(page::render(survey, findings).as_bytes())
-        })?;
-        all.add(files::METHOD, |out| {
-            out.write_all(page::method(survey, findings).as_bytes())
-        })?;
-        all.add(files::SUMMARY, |out| {
-            Ok(serde_json::to_writer_pretty(out, &summary)?)
-        })?;
-        all.add(files::TABLE, |out| files::write_table(survey, findings, out))?;
-        all.add(files::RUNS_TABLE, |out| files::write_runs(survey, findings, out))?;
-        figure.add(all, files::FIGURE, files::PICTURE)?;
-        all.add(files::WORDS, |out| {
-            out.write_all(files::words(survey, findings).as_bytes())
-        })
-    })?;
-    Ok(())
-}

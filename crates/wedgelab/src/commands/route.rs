@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
 use quantity::{Kind, Quantity};
+use report::drawn::Drawn;
 use report::route_files::{self as files, NAMES};
 use staging::Folder;
 use study::car::CarCase;
@@ -18,7 +19,6 @@ use study::car::summary::CarSummary;
 use study::route::{OfRun, Route, RouteRun, RouteSummary, RouteWear, Worn};
 use study::run::Run;
 
-use crate::drawn::Drawn;
 use crate::execute::jobs;
 use crate::failure::{Failure, Message};
 use crate::interrupt;

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, Quantity, System as Units};
+use report::drawn::Drawn;
 use report::stability_files::NAMES;
 use report::terminal::TerminalTable;
 use report::{hunting_files, onset_files, stability_files};
@@ -19,7 +20,6 @@ use study::outcome::Outcome;
 use super::run::read_any;
 use super::stability_locus::{Around, VaryArguments};
 use super::stability_vehicle;
-use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;

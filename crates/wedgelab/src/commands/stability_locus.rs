@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use clap::Args;
 use miette::Diagnostic;
 use quantity::{Kind, Number};
+use report::drawn::Drawn;
 use report::locus_files;
 use report::terminal::TerminalTable;
 use study::car::CarCase;
@@ -17,7 +18,6 @@ use study::models::AnyCase;
 
 use super::run::is_built_in;
 use super::stability::speed;
-use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use report::drawn::Drawn;
 use report::stability_files::{FIGURE, NUMBERS, PICTURE, TABLE};
 use report::terminal::TerminalTable;
 use report::vehicle_stability_files::{self, NAMES};
@@ -13,7 +14,6 @@ use study::vehicle::stability::over_speed;
 use study::vehicle::summary::VibrationSummary;
 
 use super::stability_locus::Around;
-use crate::drawn::Drawn;
 use crate::execute::started_with;
 use crate::failure::{Failure, Message};
 use crate::folders;

@@ -36,6 +36,7 @@ use crate::select::built_in_elsewhere;
 Examples:
   wedgelab study friction.toml
   wedgelab study friction.toml --out today --jobs 1
+  wedgelab study friction.toml --cost               how long it takes, before it begins
   wedgelab study friction.toml --series 0 17        time series of two of its runs, any time
 
 A study file:
@@ -56,6 +57,9 @@ pub struct Arguments {
     /// Write the files of these runs (result.csv, ...) into series/NUMBER, and nothing else
     #[arg(long, value_name = "NUMBER", num_args = 1..)]
     series: Vec<u64>,
+    /// Compute a few of the runs, say what all of them cost (time, space on the disk), and end
+    #[arg(long)]
+    cost: bool,
     /// Begin even if there are more than a million runs
     #[arg(long)]
     yes: bool,
@@ -126,6 +130,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = work::open(&study, &path)?;
     let clock = Instant::now();
     let jobs = jobs(arguments.jobs);
+    if arguments.cost {
+        let left = study.count() - study_work::kept(&folder)?.runs;
+        let cost = work::cost(&study, &folder, (jobs, left), &|| ())?;
+        writeln!(io::stdout().lock(), "{}", cost.words())?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let done = work::all(&study, &folder, jobs, arguments.quiet)?;
     let kept = format!(
         "{} of {} runs are kept in {}",

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 use quantity::{Kind, Quantity};
+use report::drawn::Drawn;
 use report::terminal::TerminalTable;
 use report::track_class;
 use report::track_files::{self, NAMES, Survey, degree};
@@ -13,7 +14,6 @@ use study::track::TrackFile;
 use study::track::bands::BANDS;
 use wheelrail::track::TrackClass;
 
-use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use report::drawn::Drawn;
 use report::terminal::TerminalTable;
 use report::warp_files::{self, KIP_INCH, NAMES, Tested};
 use study::truck::TruckCase;
@@ -12,7 +13,6 @@ use study::truck::run::TruckResult;
 use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
 
 use super::run::read_any;
-use crate::drawn::Drawn;
 use crate::execute::{Done, compute, unsound_unwritten};
 use crate::failure::{Failure, Message, say};
 use crate::folders;

@@ -6,13 +6,13 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use quantity::{Kind, Quantity};
+use report::drawn::Drawn;
 use report::wear_files::{self as files, Given, NAMES};
 use study::wear::archard::Archard;
 use study::wear::energy::WearByEnergy;
 use study::wear::{WearError, WearHistory, WearLaw, WearPlan, WearStop, advance};
 
 use super::run::read;
-use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
+use report::drawn::Drawn;
 use report::terminal::TerminalTable;
 use report::wheelrail_files::{self, NAMES};
 use wheelrail::conicity::RollingRadiusDifference;
@@ -16,7 +17,6 @@ use wheelrail::wheelset::{RigidPosition, RigidWheelset};
 
 use super::wheelrail_pair::{DEVIATION, ProfiledPair, WheelRailPair, word, wrong};
 use super::{wheelrail_contact, wheelrail_run, wheelrail_stability};
-use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, System as Units};
+use report::drawn::Drawn;
 use report::terminal::TerminalTable;
 use report::wheelset_stability_files::{self as files, NAMES};
 use study::track::TrackFile;
@@ -15,7 +16,6 @@ use study::wheelset::stability::{WheelsetStability, stability};
 use super::stability::{range, spaced};
 use super::wheelrail_pair::WheelRailPair;
 use super::wheelrail_suspended::SuspendedArguments;
-use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;

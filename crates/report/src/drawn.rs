@@ -1,9 +1,26 @@
-//! Figures as the files of commands: each as a drawing (SVG) and as a picture (PNG).
+//! Figures as files: each as a drawing (SVG) and as a picture (PNG).
+
+use std::io;
+use std::path::PathBuf;
 
 use drawing::Figure;
+use miette::Diagnostic;
 use staging::{FileError, Files};
+use thiserror::Error;
 
-use crate::failure::{Failure, Message};
+/// A figure cannot be drawn as a picture.
+#[derive(Debug, Error, Diagnostic)]
+#[error("cannot draw: {0}")]
+pub struct DrawError(String);
+
+impl From<DrawError> for FileError {
+    fn from(error: DrawError) -> Self {
+        Self::Write {
+            file: PathBuf::from("figure"),
+            reason: io::Error::other(error.0),
+        }
+    }
+}
 
 /// A figure that is drawn, so that nothing can go wrong when files are written.
 pub struct Drawn {
@@ -16,7 +33,7 @@ impl Drawn {
     ///
     /// # Errors
     /// It cannot be drawn as a picture.
-    pub fn of(figure: &Figure) -> Result<Self, Failure> {
+    pub fn of(figure: &Figure) -> Result<Self, DrawError> {
         Ok(Self {
             svg: figure.to_svg(),
             png: png(figure)?,
@@ -37,7 +54,6 @@ impl Drawn {
 ///
 /// # Errors
 /// It cannot be drawn.
-pub fn png(figure: &Figure) -> Result<Vec<u8>, Failure> {
-    let png = figure.to_png();
-    png.map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))
+pub fn png(figure: &Figure) -> Result<Vec<u8>, DrawError> {
+    figure.to_png().map_err(DrawError)
 }
