@@ -126,6 +126,14 @@ pub trait Problem {
         self.linearize(time, x, dx, scratch);
     }
 
+    /// Solves the equations of an implicit stage for some states alone, the others being as they are: writes
+    /// `z = base_z + f_z(time, x)/shift` into `x` for states z whose rates depend on no other z. Newton's
+    /// method calls it before each derivative; it then needs fewer corrections where these states switch
+    /// (nonlinear elimination: P. Lanzkron, D. Rose, J. Wilkes, SIAM J. Sci. Comput. 17 (1996) 538).
+    fn settle(&mut self, time: f64, shift: f64, base: &[f64], x: &mut [f64]) {
+        let _ = (time, shift, base, x);
+    }
+
     /// Starts the smooth interval of the explicit time dependence that begins at `start`; returns its end,
     /// the first time after `start` at which f or a derivative of f jumps in time (infinite: there is none).
     ///

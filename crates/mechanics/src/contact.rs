@@ -260,20 +260,53 @@ impl ContactFace<Interface> {
         at: &PointKinematics<S>,
         deflection: [S; 2],
     ) -> PointForce<S> {
-        let elastic = self.surface.elastic(at.gap.by(-properties.stiffness), at.gap);
-        let elastic = S::blend(closed, elastic, S::zero());
-        let (mut normal, mut damping_loss) = (elastic, S::zero());
-        if properties.damped {
-            let damped = elastic - at.gap_rate.by(properties.damping);
-            let pressed = S::blend(S::Plain::zero().below(damped.plain()), damped, S::zero());
-            normal = S::blend(closed, pressed, S::zero());
-            damping_loss = (elastic - normal) * at.gap_rate;
-        }
+        let (normal, damping_loss) = self.pressed_by(properties, closed, at);
         PointForce {
             normal,
             friction: self.friction(properties, normal, at.slip, deflection),
             damping_loss,
         }
+    }
+
+    /// Returns the normal force at a point, and the power lost in contact damping.
+    #[inline(always)]
+    fn pressed_by<S: Number>(
+        &self,
+        properties: &PointProperties<S::Plain>,
+        closed: S::Mask,
+        at: &PointKinematics<S>,
+    ) -> (S, S) {
+        let elastic = self.surface.elastic(at.gap.by(-properties.stiffness), at.gap);
+        let elastic = S::blend(closed, elastic, S::zero());
+        if !properties.damped {
+            return (elastic, S::zero());
+        }
+        let damped = elastic - at.gap_rate.by(properties.damping);
+        let pressed = S::blend(S::Plain::zero().below(damped.plain()), damped, S::zero());
+        let normal = S::blend(closed, pressed, S::zero());
+        (normal, (elastic - normal) * at.gap_rate)
+    }
+
+    /// Returns the deflection of a point's bristle at the end of an implicit stage of this duration (s) that
+    /// begins from `base` ([`bristle::settled`]); `base` itself where the law has none.
+    #[inline(always)]
+    pub(crate) fn settled<S: Number>(
+        &self,
+        properties: &PointProperties<S::Plain>,
+        closed: S::Mask,
+        at: &PointKinematics<S>,
+        (base, duration): ([S; 2], f64),
+    ) -> [S; 2] {
+        let FrictionLaw::Bristle { stiffness, damping } = self.law else {
+            return base;
+        };
+        let (normal, _) = self.pressed_by(properties, closed, at);
+        let slip = self.surface.seen(at.slip);
+        let limit = self
+            .surface
+            .limit(normal * self.coefficient, properties, normal, slip);
+        let share = properties.share;
+        bristle::settled(limit, share * stiffness, share * damping, slip, base, duration)
     }
 
     /// Returns the friction of a point.

@@ -70,12 +70,14 @@ impl<P: Problem> Integrator<P> {
         }
     }
 
-    /// Evaluates the derivative at the argument.
+    /// Evaluates the derivative at the argument, after states that can be solved for alone are.
     fn evaluate_stage(&mut self) {
-        let n = self.dimension;
+        let (n, shift) = (self.dimension, self.newton_shift());
+        let Newton { time, base, .. } = &self.newton;
+        let argument = &mut self.argument[..n];
+        self.problem.settle(*time, shift, &base[..n], argument);
         let derivative = &mut self.stage_derivative[..n];
-        self.problem
-            .derivative(self.newton.time, &self.argument[..n], derivative);
+        self.problem.derivative(*time, argument, derivative);
         self.statistics.derivatives += 1;
     }
 

@@ -243,6 +243,29 @@ impl ContactFace<Interface> {
         }
     }
 
+    /// Writes the deflections at the end of an implicit stage of this duration (s) in place of those from which
+    /// it begins.
+    #[inline(always)]
+    pub(crate) fn settle<M: FaceMotion>(
+        &self,
+        points: &mut Points,
+        motion: &M,
+        deflections: &mut [f64],
+        duration: f64,
+    ) {
+        points.update(motion);
+        for (number, (block, at)) in points.blocks.iter().zip(&points.kinematics).enumerate() {
+            let first = LANES * number;
+            let base = block.deflection(deflections, first);
+            let own = self.settled(&block.properties, closed(block, at), at, (base, duration));
+            let own = own.map(Lanes::to_array);
+            for i in 0..block.count {
+                deflections[2 * (first + i)] = own[0][i];
+                deflections[2 * (first + i) + 1] = own[1][i];
+            }
+        }
+    }
+
     /// Calls `each` with gap and friction load of four points at a time. The load of open points has no
     /// meaning.
     #[inline(always)]

@@ -323,6 +323,33 @@ impl<S: Real> Wrench<S> {
 }
 
 impl System {
+    /// Writes the deflections of all bristles at the end of an implicit stage of this duration (s) that begins
+    /// from those of `base`, at the positions and velocities of the last [`System::update_kinematics`].
+    pub(super) fn settle_bristles(&mut self, duration: f64, base: &[f64], x: &mut [f64]) {
+        let layout = self.layout;
+        let [_, _, base, _] = layout.split(base);
+        let [_, _, internal, _] = layout.split_mut(x);
+        for face in self.faces.iter_mut().filter(|face| face.internal_count > 0) {
+            let range = face.first_internal..face.first_internal + face.internal_count;
+            let own = &mut internal[range.clone()];
+            own.copy_from_slice(&base[range]);
+            let relative: RelativeMotion<f64> = face.relative_frame.relative(&self.kinematics[face.body]);
+            let (element, points) = (&face.element, &mut face.points);
+            let surface = &element.surface;
+            if points.is_curved() {
+                let shape = &surface.shape;
+                let motion = CurvedMotion {
+                    shape,
+                    relative: &relative,
+                };
+                element.settle(points, &motion, own, duration);
+            } else {
+                let motion = PlaneMotion::new(&relative, surface.first_arm);
+                element.settle(points, &motion, own, duration);
+            }
+        }
+    }
+
     /// Writes accelerations, rates and powers at the state of the last [`System::update_kinematics`].
     #[inline]
     pub(super) fn forces(&mut self, x: &[f64], dx: &mut [f64]) {

@@ -448,6 +448,11 @@ impl Problem for System {
         self.forces(x, dx);
     }
 
+    fn settle(&mut self, time: f64, shift: f64, base: &[f64], x: &mut [f64]) {
+        self.update_kinematics(time, x);
+        self.settle_bristles(1.0 / shift, base, x);
+    }
+
     fn linearize(&mut self, time: f64, x: &[f64], dx: &[f64], df_dt: &mut [f64]) {
         self.update_kinematics(time, x);
         self.differentiate(x, dx, true);

@@ -137,11 +137,26 @@ impl Spectrum {
     }
 }
 
+/// Terms of a block.
+const BLOCK: usize = 8;
+
+/// Some terms: wavenumbers (rad/m), and amplitudes (m) times cosine and sine of the phase.
+#[derive(Clone, Debug, PartialEq)]
+struct Block {
+    wavenumber: [f64; BLOCK],
+    cosine: [f64; BLOCK],
+    sine: [f64; BLOCK],
+}
+
 /// A realization of a spectrum.
+///
+/// Wavenumbers are evenly spaced: the waves of one block are those of the block before, turned by an angle
+/// that is the same for all terms. So a distance takes the sines and cosines of one block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Realization {
-    /// Wavenumber (rad/m), amplitude (m) and phase (rad) of each term.
-    terms: Vec<[f64; 3]>,
+    blocks: Vec<Block>,
+    /// From one wavenumber to the next, rad/m.
+    step: f64,
     taper: f64,
 }
 
@@ -167,19 +182,24 @@ impl Realization {
         let (low, high) = (TAU / longest, TAU / shortest);
         let step = (high - low) / terms as f64;
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let terms = (0..terms).map(|k| {
-            let wavenumber = low + (k as f64 + 0.5) * step;
-            let phase = TAU * ((random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64);
-            Ok([
-                wavenumber,
-                (2.0 * spectrum.density(wavenumber)? * step).sqrt(),
-                phase,
-            ])
-        });
-        Ok(Self {
-            terms: terms.collect::<Result<_, SpectrumError>>()?,
-            taper,
-        })
+        let mut blocks = Vec::with_capacity(terms.div_ceil(BLOCK));
+        for first in (0..terms).step_by(BLOCK) {
+            let mut block = Block {
+                wavenumber: [0.0; BLOCK],
+                cosine: [0.0; BLOCK],
+                sine: [0.0; BLOCK],
+            };
+            for k in 0..BLOCK.min(terms - first) {
+                let wavenumber = low + ((first + k) as f64 + 0.5) * step;
+                let phase = TAU * ((random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64);
+                let amplitude = (2.0 * spectrum.density(wavenumber)? * step).sqrt();
+                let (sine, cosine) = libm::sincos(phase);
+                block.wavenumber[k] = wavenumber;
+                (block.cosine[k], block.sine[k]) = (amplitude * cosine, amplitude * sine);
+            }
+            blocks.push(block);
+        }
+        Ok(Self { blocks, step, taper })
     }
 
     /// Returns the irregularity (m) at a distance (m), its slope and its second derivative (1/m).
@@ -188,13 +208,7 @@ impl Realization {
         if distance <= 0.0 {
             return [0.0; 3];
         }
-        let mut sum = [0.0; 3];
-        for [wavenumber, amplitude, phase] in &self.terms {
-            let (sine, cosine) = libm::sincos(wavenumber * distance + phase);
-            sum[0] += amplitude * cosine;
-            sum[1] -= amplitude * wavenumber * sine;
-            sum[2] -= amplitude * wavenumber * wavenumber * cosine;
-        }
+        let sum = self.sum(distance);
         if distance >= self.taper {
             return sum;
         }
@@ -210,5 +224,33 @@ impl Realization {
             window[1] * sum[0] + window[0] * sum[1],
             window[2] * sum[0] + 2.0 * window[1] * sum[1] + window[0] * sum[2],
         ]
+    }
+
+    /// Returns the sum of the terms at a distance (m), and its first and second derivative.
+    fn sum(&self, distance: f64) -> [f64; 3] {
+        let mut sums = [[0.0; BLOCK]; 3];
+        let (mut sines, mut cosines) = ([0.0; BLOCK], [0.0; BLOCK]);
+        let first = self.blocks.first().map_or(0.0, |own| own.wavenumber[0]);
+        for k in 0..BLOCK {
+            let angle = (first + k as f64 * self.step) * distance;
+            (sines[k], cosines[k]) = libm::sincos(angle);
+        }
+        let (turn_sine, turn_cosine) = libm::sincos(BLOCK as f64 * self.step * distance);
+        for block in &self.blocks {
+            for k in 0..BLOCK {
+                let wavenumber = block.wavenumber[k];
+                let value = block.cosine[k] * cosines[k] - block.sine[k] * sines[k];
+                let across = block.cosine[k] * sines[k] + block.sine[k] * cosines[k];
+                sums[0][k] += value;
+                sums[1][k] -= wavenumber * across;
+                sums[2][k] -= wavenumber * wavenumber * value;
+            }
+            for k in 0..BLOCK {
+                let (sine, cosine) = (sines[k], cosines[k]);
+                sines[k] = sine * turn_cosine + cosine * turn_sine;
+                cosines[k] = cosine * turn_cosine - sine * turn_sine;
+            }
+        }
+        sums.map(|own| own.iter().sum())
     }
 }
