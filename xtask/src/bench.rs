@@ -1,5 +1,7 @@
-//! `cargo xtask bench`: measurements of speed, with caveats; writes `docs/benchmarks.md`.
+//! `cargo xtask bench`: measurements of speed, with caveats; writes `docs/benchmarks.md`, and of cars
+//! `docs/benchmarks-cars.md`.
 
+mod cars;
 mod page;
 
 use std::fmt::Write;
@@ -11,13 +13,17 @@ use crate::shell::{self, Workspace};
 use page::{INSTRUCTIONS, Printed, SECTIONS};
 
 const HELP: &str = "\
-Usage: cargo xtask bench [arguments of `cargo bench`]
+Usage: cargo xtask bench [cars [--quick | --page] | arguments of `cargo bench`]
 
 Without arguments: measures evaluations, the thesis's runs, studies, half-truck, truck and FMUs, counts \
 instructions (where valgrind
 is installed), and writes docs/benchmarks.md: some minutes. With arguments, runs `cargo bench` with them, \
 over all crates unless some
-are chosen, such as `cargo xtask bench --package benchmarks`.";
+are chosen, such as `cargo xtask bench --package benchmarks`.
+`cars`: measures all built-in cars and regimes beside an explicit program, and writes \
+docs/benchmarks-cars.md: some 20 minutes on two
+cores. With --quick it shows a few runs and writes nothing, with --page it writes the page from the last \
+measurement.";
 
 /// The run whose instructions are counted: the slowest yawed one.
 const COUNTED_RUN: [&str; 3] = ["rodas5p", "1e-6", "vdrun_toe_in_0.2_psi_0.012"];
@@ -31,10 +37,10 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
         println!("{HELP}");
         return ExitCode::SUCCESS;
     }
-    let done = if arguments.is_empty() {
-        everything(workspace)
-    } else {
-        shell::run(&mut workspace.cargo(call(arguments)))
+    let done = match arguments {
+        [] => everything(workspace),
+        [first, rest @ ..] if first == "cars" => cars::run(workspace, rest),
+        _ => shell::run(&mut workspace.cargo(call(arguments))),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -137,6 +137,7 @@ const ABOUT: &str = "\
 
 How long evaluations, runs, studies and steps take. `cargo xtask bench` measures everything and writes this \
 page; its text is in `xtask/src/bench/page.rs`: edit it there.
+All built-in cars and regimes beside an explicit program: [benchmarks-cars.md](benchmarks-cars.md).
 How we compare with other solvers: [race.md](race.md). Why the integrator is built so, with what each change \
 gained: [decisions](decisions).
 
