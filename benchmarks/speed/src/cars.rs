@@ -174,7 +174,7 @@ pub fn tight(case: &CarCase, method: Method) -> CarCase {
 /// Statistics whose errors have a column: the name of the column, and what begins and ends their names.
 pub const COLUMNS: [(&str, &str, &str); 6] = [
     ("roll", "body_roll", "_peak_to_peak"),
-    ("vertical", "body_at_truck_", "_vertical_acceleration_rms"),
+    ("vert.", "body_at_truck_", "_vertical_acceleration_rms"),
     ("lateral", "body_at_truck_", "_lateral_acceleration_rms"),
     ("peaks", "body_at_truck_", "_acceleration_peak_to_peak"),
     ("load", "axle_", "_least_load_time"),

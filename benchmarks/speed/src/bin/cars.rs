@@ -1,5 +1,5 @@
-//! `cars [NAME-PART|all] [STEPS] [METHOD]`: the built-in cars and regimes, empty and loaded: what a run costs,
-//! and how far its statistics are from those at 1e-7.
+//! `cars [NAME-PART|all] [STEPS] [METHOD]`: the built-in cars and regimes, empty and loaded: what a run
+//! costs, and how far its statistics are from those at 1e-7.
 //!
 //! CPU times of one thread, with rows and statistics, without files. The run at 1e-7 (by METHOD, else by
 //! ESDIRK3) ends where the run at the default tolerance has made STEPS steps; with 0 there is none.
@@ -24,6 +24,7 @@ const STEPS: u64 = 2500;
 /// The study of four runs.
 const STUDY: &str = "
 case = \"car_tangent_loaded\"
+sampling = \"full_factorial\"
 accuracy = \"case\"
 [set]
 simulation.duration = \"10 s\"

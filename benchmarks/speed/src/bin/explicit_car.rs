@@ -1,8 +1,9 @@
 //! `explicit_car [SECONDS]`: the explicit program of `benchmarks::explicit` on one core, loaded and empty, on
 //! smooth and on rough track.
 //!
-//! CPU time a second of the car, the least of three runs; largest size of the body's vertical acceleration,
-//! roll of the body (greatest less least) and least load of a wheel, as a sign that it is the same kind of car.
+//! CPU time a second of the car, the least of three runs; then, as a sign that it is the same kind of car,
+//! largest size of the body's vertical acceleration, roll of the body (greatest less least) and least load of
+//! a wheel.
 
 use std::process::ExitCode;
 
@@ -25,7 +26,7 @@ fn measure_all() -> Result<(), String> {
         .parse()
         .map_err(|_| format!("`{seconds}` is no number of seconds"))?;
     println!(
-        "{:24} {:>6} {:>8} {:>8} {:>9} {:>14} {:>9} {:>12}",
+        "{:26} {:>6} {:>8} {:>8} {:>9} {:>14} {:>9} {:>12}",
         "run", "s", "CPU s/s", "steps/s", "µs/rhs", "vertical, g", "roll, mrad", "least load, %"
     );
     let (four, many) = (Faces::Corners, Faces::Crowned);
@@ -49,7 +50,7 @@ fn measure_all() -> Result<(), String> {
             }
             let [vertical, roll, load] = seen;
             println!(
-                "{:24} {duration:6.1} {:8.3} {:8.0} {:9.2} {vertical:14.3} {:9.1} {:12.1}",
+                "{:26} {duration:6.1} {:8.3} {:8.0} {:9.2} {vertical:14.3} {:9.1} {:12.1}",
                 format!("{track}, {name}"),
                 least / duration,
                 1.0 / STEP,

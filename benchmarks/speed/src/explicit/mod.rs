@@ -1,10 +1,10 @@
 //! A freight car by an explicit program of its own: the yardstick of the benchmark of cars.
 //!
 //! It shares no code with Wedgelab: plain arrays, 19 rigid bodies (car body, two bolsters, four side frames,
-//! eight wedges, four wheelsets) with all their six motions, the classical Runge-Kutta method with fixed steps
-//! of 8e-5 s. Springs, stops and faces act between a point of one body and another body ([`law`]), wheels roll
-//! on rails ([`wheel`]). Dimensions, weights, stiffnesses, dampings and friction are those of the built-in cars
-//! of 263,000 lbf, loaded and empty ([`parts`]).
+//! eight wedges, four wheelsets) with all their six motions, the classical Runge-Kutta method with fixed
+//! steps of 8e-5 s. Springs, stops and faces act between a point of one body and another body ([`law`]),
+//! wheels roll on rails ([`wheel`]). Dimensions, weights, stiffnesses, dampings and friction are those of the
+//! built-in cars of 263,000 lbf, loaded and empty ([`parts`]).
 //!
 //! Simplified against the built-in cars:
 //!
@@ -12,8 +12,8 @@
 //!   waves;
 //! - coned wheels (1:20) with a lateral spring as flange, on rails that do not give way; no search of the
 //!   contact, one patch of constant shape, no spin moment;
-//! - each face of a wedge is flat and bears at its four corners, or at 18 points with a crowned slope as in the
-//!   built-in cars ([`parts::Faces`]); a center plate has eight points, not sixteen;
+//! - each face of a wedge is flat and bears at its four corners, or at 18 points with a crowned slope as in
+//!   the built-in cars ([`parts::Faces`]); a center plate has eight points, not sixteen;
 //! - friction by sliders that are set back to their limit after each step: first order where they slip;
 //! - no events, no error control, no energy ledger, no statistics, no files.
 

@@ -64,8 +64,8 @@ impl Parts {
         self.bodies.len() - 1
     }
 
-    /// Adds points (places in in) of body `a` that see body `b`; z of the laws is along `normal`, which has no
-    /// part across the track.
+    /// Adds points (places in in) of body `a` that see body `b`; z of the laws is along `normal`, which has
+    /// no part across the track.
     fn link(&mut self, a: usize, b: usize, normal: V, points: impl IntoIterator<Item = (V, Law)>) {
         let across = [0.0, 1.0, 0.0];
         let columns = [cross(across, normal), across, normal];
@@ -94,7 +94,8 @@ impl Parts {
         }
     }
 
-    /// Stiffness lbf/in, damping lbf·s/in, gap in; coefficient of friction, the slider's stiffness and damping.
+    /// Stiffness lbf/in, damping lbf·s/in, gap in; coefficient of friction, the slider's stiffness and
+    /// damping.
     fn face(&mut self, [stiffness, damping, gap]: [f64; 3], slider: [f64; 3]) -> Law {
         self.sliders += 1;
         Law::Face {
