@@ -23,9 +23,9 @@ and single evaluations: [benchmarks.md](benchmarks.md).
 
 ## How to read it
 
-- CPU seconds a second of the car, of one thread, with rows and statistics, without files. Two runs were \
-measured at a time, loaded cars beside empty ones, and the explicit program by itself; where the load \
-average was higher, other programs ran beside them, which makes CPU times longer, too.
+- CPU seconds a second of the car, of one thread, with rows and statistics, without files. Loaded cars are \
+measured beside empty ones, the explicit program by itself, unless the line below says otherwise; other \
+programs beside them make CPU times longer, too.
 - Method and tolerance are those of the case: `tr-bdf2` at 1e-4 unless the regime sets others.
 - Names with `car_` are built-in cars. Others are the regime with the other lading, or `hunting` at a held \
 speed; the speed is that of the built-in car of the regime.
@@ -148,13 +148,9 @@ fn write_page(workspace: &Workspace, folder: &Path) -> Result<(), String> {
     let rows = rows.split_once('\n').map_or("", |(_, rows)| rows);
     let cars = read("loaded")? + rows;
     let threads = read("threads_1")? + &read("threads_2")?;
-    let text = page(
-        &Machine::here(),
-        &read("load")?,
-        &read("explicit")?,
-        &cars,
-        &threads,
-    );
+    // What else ran meanwhile, by who measured.
+    let load = read("load")? + &read("remark").map_or(String::new(), |remark| format!("; {}", remark.trim()));
+    let text = page(&Machine::here(), &load, &read("explicit")?, &cars, &threads);
     let file = workspace.root.join("docs").join("benchmarks-cars.md");
     std::fs::write(&file, text).map_err(|error| format!("cannot write {}: {error}", file.display()))?;
     println!("{}", file.display());
