@@ -191,6 +191,10 @@ fn page(machine: &Machine, load: &str, explicit: &str, cars: &str, threads: &str
         ("Threads", THREADS, threads.to_owned()),
     ] {
         let lines = lines.trim_end();
+        // Not measured.
+        if lines.is_empty() {
+            continue;
+        }
         let _ = write!(text, "\n## {heading}\n\n{about}\n\n```text\n{lines}\n```\n");
     }
     text
