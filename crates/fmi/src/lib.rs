@@ -7,7 +7,7 @@
 //! - [`element`]: the elements whose quantities the variables show: any system with named ports ([`system`]),
 //!   which are the wedge ([`wedge`](mod@wedge)), the truck without wedges ([`truck`]), the half-truck
 //!   ([`half_truck`]), the three-piece truck ([`three_piece`]), the car ([`car`]), the vehicle of bodies and
-//!   elements ([`vehicle`](mod@vehicle)); and the quasi-static wedge.
+//!   elements ([`vehicle`](mod@vehicle)); the quasi-static wedge; and tables of a nest ([`tables`]).
 //! - [`instance`]: one instance, with the states of the standard's state machine, for both versions and both
 //!   kinds of interface.
 //! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one;
@@ -42,6 +42,7 @@ pub mod resources;
 pub mod source;
 pub mod ssp;
 pub mod system;
+pub mod tables;
 pub mod three_piece;
 pub mod truck;
 pub mod unit;

@@ -13,6 +13,7 @@ use crate::car::CarModel;
 use crate::element::{Element, Entries, Setting};
 use crate::half_truck::{HalfTruck, HalfTruckModel};
 use crate::quasi_static::QuasiStaticModel;
+use crate::tables::{TablesModel, TablesOrigin};
 use crate::three_piece::ThreePieceTruckModel;
 use crate::truck::TruckModel;
 use crate::vehicle::VehicleModel;
@@ -195,6 +196,8 @@ models! {
     Car(CarCase) = CarModel,
     /// A vehicle of bodies and elements.
     Vehicle(VehicleCase) = VehicleModel,
+    /// Tables of a nest.
+    NestTables(TablesOrigin) = TablesModel,
 }
 
 /// Returns name and title, and length (s) and tolerance of the default experiment.

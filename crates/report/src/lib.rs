@@ -12,7 +12,7 @@
 //! - [`warp_files`], [`curves_files`], [`wear_files`]: the files of `wedgelab warp`, `curves` and `wear`;
 //!   [`stability_files`], [`locus_files`], [`hunting_files`], [`onset_files`]: those of `wedgelab stability`;
 //!   [`wheelrail_files`]: those of `wedgelab wheelrail plot`; [`track_files`]: those of
-//!   `wedgelab track show`.
+//!   `wedgelab track show`; [`tables_files`]: those of `wedgelab tables`, whose runs [`tables_work`] makes.
 //! - [`terminal`]: tables on the terminal.
 //! - [`table`]: tables of results, read back; [`run_folder`]: whole runs.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
@@ -68,6 +68,8 @@ pub mod study_folder;
 pub mod study_work;
 pub mod summary;
 pub mod table;
+pub mod tables_files;
+pub mod tables_work;
 pub mod terminal;
 pub mod track_class;
 pub mod track_files;

@@ -58,6 +58,7 @@ pub mod statics;
 pub mod stepping;
 pub mod summary;
 mod summary_value;
+pub mod tables;
 pub mod track;
 pub mod truck;
 pub mod vehicle;

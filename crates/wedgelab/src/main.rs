@@ -23,7 +23,7 @@ use numerics::processor::{OldProcessor, check};
 use commands::{
     assess, case, compare, completions, coupon, curves, energy, explore, fit, fmu, lock_up, man, nucars,
     plot, probability, quasi_static, regime, report as report_command, reproduce, rise, route, run,
-    stability, study, track, warp, wear, wheelrail,
+    stability, study, tables, track, warp, wear, wheelrail,
 };
 use failure::Failure;
 
@@ -45,6 +45,7 @@ Begin with:
   wedgelab run my.toml               ... and to run: a wedge, a truck, a car
   wedgelab energy NAME               where the energy of a cycle goes
   wedgelab warp                      warp of a whole truck with four wedges
+  wedgelab tables TRUCK              nest and warp as tables for other programs, with their error
   wedgelab lock-up                   where a wedge locks up, over two of its parameters
   wedgelab stability CAR             vibrations of a whole car over speed
   wedgelab assess CAR               a car in the regimes of its assessment, beside limits
@@ -78,6 +79,7 @@ enum Command {
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
+    Tables(tables::Arguments),
     LockUp(lock_up::Arguments),
     Coupon(coupon::Arguments),
     Curves(curves::Arguments),
@@ -112,6 +114,7 @@ impl Cli {
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
+            Command::Tables(arguments) => tables::execute(&arguments),
             Command::LockUp(arguments) => lock_up::execute(&arguments),
             Command::Coupon(arguments) => coupon::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),

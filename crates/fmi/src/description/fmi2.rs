@@ -47,9 +47,12 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
             .outputs()
             .try_for_each(|variable| xml.empty("Unknown", &unknown(variable)))
     })?;
-    xml.element("Derivatives", &[], |xml| {
-        rates().try_for_each(|variable| xml.empty("Unknown", &unknown(variable)))
-    })?;
+    // The standard has no empty list.
+    if rates().next().is_some() {
+        xml.element("Derivatives", &[], |xml| {
+            rates().try_for_each(|variable| xml.empty("Unknown", &unknown(variable)))
+        })?;
+    }
     xml.element("InitialUnknowns", &[], |xml| {
         description
             .those(unknown_at_start)

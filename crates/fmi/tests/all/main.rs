@@ -5,6 +5,7 @@ mod car;
 mod issue_029_behaviour;
 mod issue_047_inputs;
 mod part;
+mod tables;
 mod three_piece;
 mod vehicle;
 mod vehicle_on_track;

@@ -7,12 +7,31 @@ use std::fmt::{Display, Write};
 
 use crate::source::Spanned;
 use crate::tree::{
-    Argument, DataFile, DataRequest, DataSection, InputFile, RawSection, RunFile, SystemFile, Terms, Title,
+    Argument, DataFile, DataRequest, DataSection, InputFile, PiecewiseLinear, RawSection, RunFile, SystemFile,
+    Terms, Title,
 };
 
 /// Returns a system file's text.
 pub fn write_system(file: &SystemFile) -> String {
     system::write(file)
+}
+
+/// Returns a record of `\\PWL DATA` in lines of at most seven values, as texts that other programs write have
+/// it; reading it gives an equal function.
+pub fn write_function(function: &PiecewiseLinear) -> String {
+    let mut out = Out::default();
+    let (id, count) = (&function.id, function.ordinates.len());
+    let lists = [&function.ordinates, &function.abscissae];
+    for (number, list) in lists.into_iter().enumerate() {
+        for (line, values) in list.chunks(7).enumerate() {
+            let head = match (number, line) {
+                (0, 0) => format!(" {id} {count} "),
+                _ => "   ".to_owned(),
+            };
+            out.text(&format!("{head}{}", reals(values)));
+        }
+    }
+    out.0
 }
 
 /// Returns an input file's text.

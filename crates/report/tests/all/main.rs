@@ -8,6 +8,7 @@ mod issue_029_behaviour;
 mod issue_029_leftovers;
 mod onset_files;
 mod study;
+mod tables;
 mod view;
 mod view_car;
 mod view_stability;

@@ -7,6 +7,7 @@ mod parts;
 mod probability;
 mod sections;
 mod signal;
+mod tables;
 mod vehicle;
 mod vehicle_rules;
 mod wheelset;

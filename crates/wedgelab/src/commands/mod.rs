@@ -26,6 +26,7 @@ pub mod stability;
 mod stability_locus;
 mod stability_vehicle;
 pub mod study;
+pub mod tables;
 pub mod track;
 pub mod warp;
 pub mod wear;

@@ -218,7 +218,7 @@ impl Varied {
 type Variant = (String, Vec<String>);
 
 /// Returns the case of a truck with values laid over it.
-fn truck(case: &Path, set: &[String]) -> Result<TruckCase, Failure> {
+pub(super) fn truck(case: &Path, set: &[String]) -> Result<TruckCase, Failure> {
     let any = read_any(case, set)?;
     if let Some(truck) = any.truck() {
         return Ok(TruckCase::clone(truck));

@@ -24,6 +24,7 @@ mod rise;
 mod route;
 mod run_report;
 mod stability_vary;
+mod tables;
 mod truck_commands;
 mod wear;
 mod wheelrail_contact;

@@ -63,7 +63,8 @@ pub struct Arguments {
     force: bool,
 }
 
-fn version(text: &str) -> Result<Version, String> {
+/// Reads a version of the standard.
+pub(crate) fn version(text: &str) -> Result<Version, String> {
     match text {
         "2" | "2.0" => Ok(Version::Two),
         "3" | "3.0" => Ok(Version::Three),

@@ -1,6 +1,6 @@
 //! `wedgelab fmu`: functional mock-up units.
 
-mod export;
+pub(super) mod export;
 mod half_truck;
 mod merge;
 mod ssp;
@@ -9,6 +9,12 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
+use fmi::description::Version;
+use fmi::package;
+use fmi::source::Source;
+use fmi::tables::TablesOrigin;
+use study::tables::NestTables;
+use study::truck::TruckCase;
 
 use crate::failure::{Failure, Message};
 use crate::folders;
@@ -40,6 +46,25 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Command::Merge(arguments) => merge::execute(arguments),
         Command::Ssp(arguments) => ssp::execute(arguments),
     }
+}
+
+/// Returns the bytes of the FMU of tables of a nest.
+pub(super) fn of_tables(
+    case: &TruckCase,
+    tables: &NestTables,
+    version: Version,
+    library: Option<&Path>,
+) -> Result<Vec<u8>, Failure> {
+    let (platform, library) = export::parts(library)?;
+    let source = Source::NestTables(Box::new(TablesOrigin::new(case, tables)));
+    let made = package::fmu(&source, version, &library, platform);
+    let (bytes, _) = made.map_err(|error| Message::new(error.to_string(), "nothing was written"))?;
+    Ok(bytes)
+}
+
+/// Checks whether an FMU can be made here: the library is there.
+pub(super) fn check(library: Option<&Path>) -> Result<(), Failure> {
+    export::parts(library).map(|_| ())
 }
 
 /// Writes a file, whole or not at all.
