@@ -172,11 +172,7 @@ fn entries(tables: &NestTables) -> Entries {
         ),
     ];
     let outputs = vec![
-        QuantityEntry::of(
-            Kind::Force,
-            "force",
-            "vertical force of the nest, its load in it",
-        ),
+        QuantityEntry::of(Kind::Force, "force", "vertical force of the nest, its load in it"),
         QuantityEntry::of(Kind::Moment, "moment", "warp moment of the nest on the bolster"),
         QuantityEntry::of(
             Kind::Dimensionless,

@@ -36,8 +36,8 @@ const ASSUMPTIONS: [&str; 7] = [
     "warp: the bolster has risen by 0.2 in to its height before; another history leaves other normal forces \
      (choice)",
     "rate: the frequency of a sine of the table's amplitude (choice)",
-    "0.75 in of rise, friction of 0.25 and 0.5, 1 Hz, a load of 0.3 of the nominal one: guesses, unless \
-     others are given",
+    "0.75 in of rise, friction of 0.2, 0.35 and 0.5, 1 Hz, loads of 0.3 and 0.6 of the nominal one: \
+     guesses, unless others are given",
     "a loop at another amplitude is cut out of the table: at its turning points it jumps from branch to \
      branch (choice; its error is among those stated)",
     "the sign of a nest's functions of NUCARS, extension positive, and that end slopes go on beyond the \
@@ -122,9 +122,12 @@ fn number_of(test: Test, node: usize) -> u32 {
 pub fn functions(table: &Table) -> Vec<PiecewiseLinear> {
     let [motion, resistance] = table.test.kinds();
     let us = |value: f64, kind: Kind| rounded(converted(value, kind, Units::Us));
+    // To a thousandth; zero has no sign.
+    let plain = |value: f64| (converted(value, resistance, Units::Us) * 1e3).round() / 1e3 + 0.0;
     let function = |id: u32, points: Vec<(f64, f64)>| {
         let (abscissae, ordinates): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
-        let spanned = |values: Vec<f64>| -> Vec<Spanned<f64>> { values.into_iter().map(Into::into).collect() };
+        let spanned =
+            |values: Vec<f64>| -> Vec<Spanned<f64>> { values.into_iter().map(Into::into).collect() };
         PiecewiseLinear {
             id: id.into(),
             ordinates: spanned(ordinates),
@@ -140,7 +143,7 @@ pub fn functions(table: &Table) -> Vec<PiecewiseLinear> {
                 let mut points: Vec<(f64, f64)> = all
                     .map(|((rising, falling), position)| {
                         let value = 0.5 * if half { rising - falling } else { rising + falling };
-                        let (position, value) = (us(*position, motion), us(value, resistance));
+                        let (position, value) = (us(*position, motion), plain(value));
                         match (table.test, half) {
                             // Stroke and force are positive in compression.
                             (Test::Nest, false) => (0.0 - position, 0.0 - value),
@@ -180,7 +183,8 @@ pub fn write_pwl(tables: &NestTables, number: usize, out: &mut dyn Write) -> io:
     let amplitude = SixDigits(converted(table.amplitude, motion, Units::Us));
     let unit = motion.suffix(Units::Us);
     for line in [
-        format!("{about}: {}, from wedgelab.", tables.case),
+        format!("{about}."),
+        format!("Truck: {}; from wedgelab.", tables.case),
         format!("Units: {units}."),
         "Two functions a node: the mean of both branches (an odd number), and half of their difference,"
             .to_owned(),
@@ -192,8 +196,9 @@ pub fn write_pwl(tables: &NestTables, number: usize, out: &mut dyn Write) -> io:
              means nothing."
         ),
         "At both ends the half width is that of a loop that turns there.".to_owned(),
-        "Error against whole runs, in per cent of their largest value (largest, root mean square):"
+        "Error against whole runs, in per cent of their largest value (largest, root mean square), and of"
             .to_owned(),
+        "the energy of a cycle:".to_owned(),
     ] {
         writeln!(out, "! {line}")?;
     }
@@ -201,8 +206,9 @@ pub fn write_pwl(tables: &NestTables, number: usize, out: &mut dyn Write) -> io:
         let [largest, rms, half] = check.per_cent();
         writeln!(
             out,
-            "!   {}: {largest:.2} %, {rms:.2} %; friction is {half:.2} %",
-            check.place.words()
+            "!   {}: {largest:.2} %, {rms:.2} %; energy {:+.1} %; friction is {half:.2} %",
+            check.place.words(),
+            check.energy_per_cent()
         )?;
     }
     for text in constants(tables) {
@@ -264,6 +270,7 @@ pub fn summary(findings: &TablesFindings) -> Value {
             "largest_per_cent": largest,
             "rms_per_cent": rms,
             "half_width_per_cent": half_width,
+            "energy_per_cent": own.energy_per_cent(),
             "largest": own.largest,
             "rms": own.rms,
             "reference": own.reference,
@@ -319,20 +326,23 @@ pub fn print(findings: &TablesFindings, out: &mut impl Write) -> io::Result<()> 
             ("largest", "%"),
             ("rms", "%"),
             ("friction", "%"),
+            ("energy", "%"),
         ],
     );
     for own in &tables.tables {
         for check in &own.checks {
             let numbers = check.per_cent().map(|own| format!("{own:.2}"));
             let words = [own.test.name().to_owned(), check.place.words()];
-            table.row(words.into_iter().chain(numbers));
+            let energy = format!("{:+.1}", check.energy_per_cent());
+            table.row(words.into_iter().chain(numbers).chain([energy]));
         }
     }
     table.write(out)?;
     writeln!(
         out,
         "\nDifferences of the tables from runs that are not in them, in per cent of the largest force or \
-         moment of\nthe run; beside them half the width of its loop. {} nodes, {} runs.",
+         moment of\nthe run; beside them half the width of its loop; by how much the table's energy of a \
+         cycle exceeds the run's.\n{} nodes, {} runs.",
         tables.grid.count(),
         findings.runs
     )?;

@@ -7,8 +7,8 @@ use std::fmt::{Display, Write};
 
 use crate::source::Spanned;
 use crate::tree::{
-    Argument, DataFile, DataRequest, DataSection, InputFile, PiecewiseLinear, RawSection, RunFile, SystemFile,
-    Terms, Title,
+    Argument, DataFile, DataRequest, DataSection, InputFile, PiecewiseLinear, RawSection, RunFile,
+    SystemFile, Terms, Title,
 };
 
 /// Returns a system file's text.

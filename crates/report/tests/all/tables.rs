@@ -114,7 +114,9 @@ fn analytic_tables_have_a_row_for_each_node_and_position() {
          force_half_width_lbf,function"
     );
     assert_eq!(lines.count(), 4 * 21);
-    assert!(csv(1, Units::Si).starts_with(
-        "load_N,rise_m,friction,rate_Hz,warp_angle_rad,moment_rising_N_m,moment_falling_N_m,"
-    ));
+    assert!(
+        csv(1, Units::Si).starts_with(
+            "load_N,rise_m,friction,rate_Hz,warp_angle_rad,moment_rising_N_m,moment_falling_N_m,"
+        )
+    );
 }

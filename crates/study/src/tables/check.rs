@@ -31,6 +31,9 @@ pub struct Check {
     pub reference: f64,
     /// Largest half of the difference of the run's branches: what friction holds.
     pub half_width: f64,
+    /// Energy that a cycle takes by the table and in the run, J: the area between the branches, by straight
+    /// lines.
+    pub energies: [f64; 2],
 }
 
 /// Returns the places: the middles between the nodes of each direction, with the middle values of the
@@ -99,6 +102,7 @@ impl Check {
             rms: 0.0,
             reference: 0.0,
             half_width: 0.0,
+            energies: [0.0; 2],
         };
         let all = positions(table.amplitude * place.amplitude_share);
         for (number, position) in all.iter().enumerate() {
@@ -107,15 +111,28 @@ impl Check {
             let Ok(said) = table.at(grid, place.at, *position) else {
                 continue;
             };
-            for (said, ran) in said.into_iter().zip(ran) {
+            for (said, ran) in said.iter().zip(&ran) {
                 own.largest = own.largest.max((said - ran).abs());
                 own.rms += (said - ran) * (said - ran);
                 own.reference = own.reference.max(ran.abs());
+            }
+            let neighbor = |other: Option<&f64>| other.map_or(0.0, |other| (other - position).abs());
+            let width =
+                neighbor(number.checked_sub(1).and_then(|k| all.get(k))) + neighbor(all.get(number + 1));
+            for (energy, [rising, falling]) in own.energies.iter_mut().zip([said, ran]) {
+                *energy += 0.5 * width * (rising - falling);
             }
             own.half_width = own.half_width.max(0.5 * (ran[0] - ran[1]).abs());
         }
         own.rms = libm::sqrt(own.rms / (2 * all.len()) as f64);
         own
+    }
+
+    /// Returns by how much the table's energy of a cycle exceeds that of the run, in per cent of the latter.
+    #[must_use]
+    pub fn energy_per_cent(&self) -> f64 {
+        let [said, ran] = self.energies;
+        100.0 * (said - ran) / ran
     }
 
     /// Returns largest and root mean square difference, and the half width, in per cent of the largest force

@@ -24,12 +24,12 @@ use rig::{Branches, Test, Wanted, carried};
 /// Rise of the wedges unless others are given, m: none, and 0.75 in (a guess, as of a worn truck).
 pub const RISES: [f64; 2] = [0.0, 0.75 * 0.0254];
 /// Friction unless others are given: guesses about 0.4 of Steets (2007).
-pub const FRICTIONS: [f64; 2] = [0.25, 0.5];
+pub const FRICTIONS: [f64; 3] = [0.2, 0.35, 0.5];
 /// Rates unless others are given, Hz: that of warp tests, and about that of a car's bounce (a guess).
 pub const RATES: [f64; 2] = [0.1, 1.0];
 /// Loads unless others are given, over what the coils carry in the nominal layout: an empty car, about (a
-/// guess), and a loaded one.
-pub const LOADS: [f64; 2] = [0.3, 1.0];
+/// guess), one between, and a loaded one.
+pub const LOADS: [f64; 3] = [0.3, 0.6, 1.0];
 /// Amplitudes of stroke (m) and warp angle (rad) unless others are given.
 pub const AMPLITUDES: [f64; 2] = [0.5 * 0.0254, 0.020];
 /// Greatest amplitudes, m and rad.
@@ -98,7 +98,9 @@ impl TablesRequest {
     fn check(&self) -> Result<(), TablesError> {
         let [_, rises, ..] = &self.grid.values;
         let pockets = self.case.parameters.wedges.iter();
-        let pocket = pockets.map(|wedge| wedge.rise_limit).fold(f64::INFINITY, f64::min);
+        let pocket = pockets
+            .map(|wedge| wedge.rise_limit)
+            .fold(f64::INFINITY, f64::min);
         if let Some(place) = rises.iter().position(|rise| *rise > pocket) {
             return Err(TablesError::Pocket {
                 place: place + 1,
@@ -122,11 +124,7 @@ impl TablesRequest {
         let tests = Test::ALL.into_iter().zip(self.amplitudes);
         tests
             .flat_map(|(test, amplitude)| {
-                let nodes = self.grid.nodes().map(move |at| Wanted {
-                    test,
-                    at,
-                    amplitude,
-                });
+                let nodes = self.grid.nodes().map(move |at| Wanted { test, at, amplitude });
                 let checks = check::places(&self.grid).into_iter();
                 nodes.chain(checks.map(move |place| place.wanted(test, amplitude)))
             })
@@ -235,10 +233,7 @@ impl NestTables {
             }
             let whole = |own: &Vec<f64>| own.len() == positions && own.iter().all(|own| own.is_finite());
             let branches = table.branches.iter();
-            if !branches
-                .flat_map(|own| [&own.rising, &own.falling])
-                .all(whole)
-            {
+            if !branches.flat_map(|own| [&own.rising, &own.falling]).all(whole) {
                 return Err(named("finite branches at each position are expected"));
             }
         }
@@ -360,9 +355,11 @@ impl TablesError {
             Self::Load { .. } => "give a load between that of the empty car and that of solid coils, \
                                   per nest: half of what stands on a truck"
                 .to_owned(),
-            Self::Massless(_) => "write wedge.kind = \"body\"; a program with massless wedges needs no table \
+            Self::Massless(_) => {
+                "write wedge.kind = \"body\"; a program with massless wedges needs no table \
                                   of them"
-                .to_owned(),
+                    .to_owned()
+            }
             Self::TooMany(_) => "give fewer values, or several tables".to_owned(),
             Self::Run { .. } => "leave this value out, or run the case there alone with `wedgelab run`: a \
                                  nest that is solid or a wedge that lies loose shows in its warnings"

@@ -32,10 +32,7 @@ impl Direction {
         let (fits, expected) = match self {
             Self::Load => (value > 0.0, "a force above zero"),
             Self::Rise => (value >= 0.0, "a length of zero or more"),
-            Self::Friction => (
-                (0.0..=bounds::FRICTION).contains(&value),
-                "a number from 0 to 10",
-            ),
+            Self::Friction => ((0.0..=bounds::FRICTION).contains(&value), "a number from 0 to 10"),
             Self::Rate => (
                 (LEAST_RATE..=MOST_RATE).contains(&value),
                 "a frequency from 0.001 to 50 Hz",

@@ -77,7 +77,9 @@ fn cross_code_the_width_of_a_loop_is_coulombs() {
     };
     let coil = wedge.control_coil.preload() - wedge.mass * case.parameters.gravity;
     let column = |direction: SlidingDirection| {
-        let slide = massless.slide(direction, massless.branch(direction), coil).unwrap();
+        let slide = massless
+            .slide(direction, massless.branch(direction), coil)
+            .unwrap();
         direction.sign() * slide.column_friction * libm::cos(wedge.toe)
             - slide.column_normal * libm::sin(wedge.toe)
     };
@@ -98,7 +100,10 @@ fn energy_a_warp_loop_loses_energy_at_each_angle() {
     };
     let found = loop_of(&case, &wanted);
     let inner = 1..positions(wanted.amplitude).len() - 1;
-    assert!(inner.clone().all(|k| found.rising[k] > found.falling[k]), "{found:?}");
+    assert!(
+        inner.clone().all(|k| found.rising[k] > found.falling[k]),
+        "{found:?}"
+    );
     let largest = found.rising.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
     for k in inner {
         let mirrored = -found.falling[found.falling.len() - 1 - k];
@@ -197,7 +202,11 @@ fn input_lists_say_what_is_wrong() {
         (0, &["-1 kip"], "a force above zero is expected"),
         (0, &["1 in"], "value 1 of --load, `1 in`"),
         (0, &["900000 kip"], "at no height"),
-        (1, &["0 in", "2 in"], "value 2 of --rise is 2 in, and the pockets hold 1.5 in"),
+        (
+            1,
+            &["0 in", "2 in"],
+            "value 2 of --rise is 2 in, and the pockets hold 1.5 in",
+        ),
         (2, &["0.3", "0.3"], "does not exceed `0.3`"),
         (2, &["0.3 in"], "a number without unit is expected"),
         (3, &["0 Hz"], "a frequency from 0.001 to 50 Hz is expected"),

@@ -38,7 +38,10 @@ fn limits_tables_do_not_depend_on_jobs() {
         )
     };
     let printed = call("one", "1");
-    assert_eq!(printed.replace("Written into one", "Written into two"), call("two", "2"));
+    assert_eq!(
+        printed.replace("Written into one", "Written into two"),
+        call("two", "2")
+    );
     for part in [
         "friction between two nodes",
         "half the amplitude, at a node",
@@ -80,7 +83,7 @@ fn input_tables_say_what_is_wrong() {
         assert!(said.join(" ").contains(part), "{}", output.err);
     }
     let cost = done(folder.path(), &["tables", "--cost", "--jobs", "2"]);
-    assert!(cost.contains("16 nodes, 44 runs"), "{cost}");
+    assert!(cost.contains("36 nodes, 88 runs"), "{cost}");
     assert!(
         fs::read_dir(folder.path()).unwrap().next().is_none(),
         "nothing is written"
