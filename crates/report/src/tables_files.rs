@@ -9,7 +9,7 @@ use nucars::tree::PiecewiseLinear;
 use nucars::write::write_function;
 use quantity::{Kind, SixDigits, System as Units};
 use serde_json::{Value, json};
-use study::tables::check::Check;
+use study::tables::check::{Check, CheckPlace};
 use study::tables::grid::{Direction, Point};
 use study::tables::rig::Test;
 use study::tables::{NestTables, Table, words};
@@ -207,7 +207,7 @@ pub fn write_pwl(tables: &NestTables, number: usize, out: &mut dyn Write) -> io:
         writeln!(
             out,
             "!   {}: {largest:.2} %, {rms:.2} %; energy {:+.1} %; friction is {half:.2} %",
-            check.place.words(),
+            place_in_words(&check.place),
             check.energy_per_cent()
         )?;
     }
@@ -253,6 +253,17 @@ fn value_in_words(direction: Direction, value: f64) -> String {
     }
 }
 
+/// Returns where a check is, in words.
+fn place_in_words(place: &CheckPlace) -> String {
+    match place.between {
+        Some(direction) => {
+            let value = place.at[direction as usize];
+            format!("{}, {}", place.words(), value_in_words(direction, value))
+        }
+        None => place.words(),
+    }
+}
+
 /// Returns all of it as JSON.
 #[must_use]
 pub fn summary(findings: &TablesFindings) -> Value {
@@ -260,7 +271,7 @@ pub fn summary(findings: &TablesFindings) -> Value {
     let check = |own: &Check| {
         let [largest, rms, half_width] = own.per_cent();
         json!({
-            "where": own.place.words(),
+            "where": place_in_words(&own.place),
             "between": own.place.between.map(Direction::name),
             "load_N": own.place.at[0],
             "rise_m": own.place.at[1],
@@ -332,7 +343,7 @@ pub fn print(findings: &TablesFindings, out: &mut impl Write) -> io::Result<()> 
     for own in &tables.tables {
         for check in &own.checks {
             let numbers = check.per_cent().map(|own| format!("{own:.2}"));
-            let words = [own.test.name().to_owned(), check.place.words()];
+            let words = [own.test.name().to_owned(), place_in_words(&check.place)];
             let energy = format!("{:+.1}", check.energy_per_cent());
             table.row(words.into_iter().chain(numbers).chain([energy]));
         }

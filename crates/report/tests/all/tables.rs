@@ -74,7 +74,7 @@ fn cross_code_functions_of_nucars_are_read_back_equal() {
         for part in [
             "! Units: ",
             "! Error against whole runs",
-            "friction between two nodes: ",
+            "friction between two nodes, 0.375: ",
             "! The rise has one value and is a constant: 0 in.",
             "! load 300 lbf, rise 0 in, friction 0.5, rate 1 Hz",
         ] {
