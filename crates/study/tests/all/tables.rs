@@ -3,11 +3,14 @@
 use std::ops::ControlFlow;
 
 use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection};
+use study::run::Run;
 use study::tables::grid::{Direction, Grid};
 use study::tables::rig::{self, Branches, Test, Wanted, carried, height, positions};
 use study::tables::{Lists, NestTables, Table, TablesError, TablesRequest};
 use study::truck::TruckCase;
 use study::truck::builtin::case_with;
+use study::truck::warp::WarpCurve;
+use truck::ControlCoil;
 
 const INCH: f64 = 0.0254;
 const TAU: f64 = std::f64::consts::TAU;
@@ -22,12 +25,15 @@ fn loop_of(case: &TruckCase, wanted: &Wanted) -> Branches {
 }
 
 /// Without friction both branches are the springs: with constant damping the load coils alone, a straight
-/// line by their stiffness; with variable damping the control coils too.
+/// line by their stiffness; with variable damping the control coils too, whose wedges stand higher by what
+/// their contacts give way. With the coil's force F and the weight W of a wedge the normal forces are
+/// `N_s = (F - W) / sin θ` and `N_c = N_s cos θ`, on four corners each, and the depths lift the wedge as wear
+/// does: 2.5e-3 of the force at most. That the wedge pitches is left out of the closed form.
 #[test]
 fn analytic_a_nest_without_friction_is_its_springs() {
     for (name, tolerance) in [
         ("truck_vertical_constant", 1e-9),
-        ("truck_vertical_variable", 2e-3),
+        ("truck_vertical_variable", 2e-4),
     ] {
         let case = truck(name, &[]);
         let nominal = carried(&case.parameters, 0.0, 0.0);
@@ -39,12 +45,21 @@ fn analytic_a_nest_without_friction_is_its_springs() {
         let found = loop_of(&case, &wanted);
         let [load, rise, ..] = wanted.at;
         let own = height(&case.parameters, load, rise).unwrap();
+        let wedge = &case.parameters.wedges[0];
+        let ControlCoil::Shear(coil) = &wedge.control_coil else {
+            panic!("a coil with a linear law is expected")
+        };
+        let (sin, cos) = (libm::sin(wedge.angle), libm::cos(wedge.angle));
+        let gives_way = (1.0 + cos * cos) / (4.0 * wedge.contact.stiffness * sin * sin);
         for (k, stroke) in positions(wanted.amplitude).into_iter().enumerate() {
-            let expected = carried(&case.parameters, own - stroke, rise);
-            if name == "truck_vertical_constant" {
-                let line = load + 0.5 * case.parameters.load_stiffness() * stroke;
-                assert!((line / expected - 1.0).abs() < 1e-12);
-            }
+            let expected = if name == "truck_vertical_constant" {
+                load + 0.5 * case.parameters.load_stiffness() * stroke
+            } else {
+                let rigid = coil.preload - coil.stiffness * (own - stroke + rise);
+                let weight = wedge.mass * case.parameters.gravity;
+                let lifted = gives_way * (rigid - weight) / (1.0 + coil.stiffness * gives_way);
+                carried(&case.parameters, own - stroke, rise) - 2.0 * coil.stiffness * lifted
+            };
             for force in [found.rising[k], found.falling[k]] {
                 assert!(
                     (force / expected - 1.0).abs() < tolerance,
@@ -56,13 +71,19 @@ fn analytic_a_nest_without_friction_is_its_springs() {
 }
 
 /// The width of the loop at zero stroke is that of Coulomb's friction on two massless wedges that slide on
-/// both faces, within 3 % (bodies, elastic contacts, crowned slopes).
+/// both faces, within 2 %: stiff contacts, and half a degree of toe, so that slopes slide. The wedge's body
+/// lies flat on one face alone, which is 3 % for a degree of toe.
 #[test]
 fn cross_code_the_width_of_a_loop_is_coulombs() {
-    let case = truck("truck_vertical_variable", &["side_frame.toe=2 deg out"]);
+    let set = [
+        "side_frame.toe=0.5 deg out",
+        "contact.stiffness=2500000 lbf/in",
+        "friction.bristle_stiffness=10000000 lbf/in",
+    ];
+    let case = truck("truck_vertical_variable", &set);
     let wanted = Wanted {
         test: Test::Nest,
-        at: [carried(&case.parameters, 0.0, 0.0), 0.0, 0.3, TAU],
+        at: [carried(&case.parameters, 0.0, 0.0), 0.0, 0.3, 0.5 * TAU],
         amplitude: 0.5 * INCH,
     };
     let found = loop_of(&case, &wanted);
@@ -85,30 +106,37 @@ fn cross_code_the_width_of_a_loop_is_coulombs() {
     };
     // Two wedges, and half of the difference.
     let expected = column(SlidingDirection::Down) - column(SlidingDirection::Up);
-    assert!((half / expected - 1.0).abs() < 0.03, "{half} for {expected}");
+    assert!((half / expected - 1.0).abs() < 0.02, "{half} for {expected}");
 }
 
-/// Warp begins where `wedgelab warp` begins it, and half of the truck's moment is the nest's: the loop is
-/// odd about zero but for the history, and it takes energy.
+/// Twice the loop of a nest loses as much as the truck's in a warp test of `wedgelab warp`, within 3 %: that
+/// is a triangle, not a sine, and has more rows.
 #[test]
-fn energy_a_warp_loop_loses_energy_at_each_angle() {
-    let case = truck("truck_crowned_vertical_variable", &[]);
+fn energy_a_warp_loop_loses_what_a_warp_test_loses() {
+    let case = truck("truck_crowned_warp_nest_variable", &[]);
+    let result = Run::new(&case).unwrap().finish(|_| ());
+    let expected = WarpCurve::of(&case, &result).unwrap().loop_area.unwrap();
+    let nominal = carried(&case.parameters, 0.0, 0.0);
+    assert!(height(&case.parameters, nominal, 0.0).unwrap().abs() < 1e-12);
     let wanted = Wanted {
         test: Test::Warp,
-        at: [carried(&case.parameters, 0.0, 0.0), 0.0, 0.4, 2.0 * TAU],
+        at: [nominal, 0.0, 0.4, 0.1 * TAU],
         amplitude: 0.020,
     };
     let found = loop_of(&case, &wanted);
-    let inner = 1..positions(wanted.amplitude).len() - 1;
+    let places = positions(wanted.amplitude);
+    let inner = 1..places.len() - 1;
     assert!(
         inner.clone().all(|k| found.rising[k] > found.falling[k]),
         "{found:?}"
     );
-    let largest = found.rising.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
-    for k in inner {
-        let mirrored = -found.falling[found.falling.len() - 1 - k];
-        assert!((found.rising[k] - mirrored).abs() < 0.05 * largest, "{found:?}");
-    }
+    // The branches meet at both ends.
+    let step = places[1] - places[0];
+    let area: f64 = inner.map(|k| step * (found.rising[k] - found.falling[k])).sum();
+    let last = places.len() - 1;
+    let end = 0.5 * step * (found.rising[last] - found.falling[last]);
+    let both = 2.0 * (area + end);
+    assert!((both / expected - 1.0).abs() < 0.03, "{both} for {expected}");
 }
 
 /// A table whose forces are a product of linear functions of all directions and the position.
