@@ -60,8 +60,10 @@ fn limits_tables_do_not_depend_on_jobs() {
         let errors = table["error"].as_array().unwrap();
         assert_eq!(errors.len(), 2);
         for own in errors {
+            // Between nodes a few per cent; at the turning points of smaller loops a jump between branches.
             let per_cent = own["largest_per_cent"].as_f64().unwrap();
-            assert!(per_cent > 0.0 && per_cent < 100.0, "{own}");
+            let most = if own["between"].is_null() { 200.0 } else { 10.0 };
+            assert!(per_cent > 0.0 && per_cent < most, "{own}");
         }
     }
 }
