@@ -1,5 +1,5 @@
-//! The tables of a nest ([`study::tables`]) behind the variables: vertical force over stroke, warp moment over
-//! warp angle, without states.
+//! The tables of a nest ([`study::tables`]) behind the variables: vertical force over stroke, warp moment
+//! over warp angle, without states.
 //!
 //! ```text
 //! F(s, v) = m(s) + d(s) v / √(v² + v0²),    m = (F_rising + F_falling) / 2,  d = (F_rising - F_falling) / 2
