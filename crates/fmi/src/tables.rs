@@ -35,6 +35,10 @@ const INPUTS: usize = 7;
 /// another speed is given: a choice.
 const ROUNDED: f64 = 0.05;
 
+/// Share of the amplitude by which a position may be beyond it without being called outside: co-simulation
+/// carries positions a little over their turning points.
+const OVERSHOOT: f64 = 1e-3;
+
 /// Tables with the case of the truck that they are made of.
 #[derive(Clone, Debug)]
 pub struct TablesOrigin {
@@ -250,7 +254,8 @@ impl TablesElement {
             let (position, rate) = (input(2 * k), input(2 * k + 1));
             let at: Point = [load, rise, friction, rate.abs() / table.amplitude];
             let within = grid.clamped(at);
-            let is_outside = at[..3] != within[..3] || position.abs() > table.amplitude * (1.0 + 1e-9);
+            let beyond = position.abs() > table.amplitude * (1.0 + OVERSHOOT);
+            let is_outside = at[..3] != within[..3] || beyond;
             let [mean, half] = table.mean_and_half(grid, within, position).map_err(Error::of)?;
             let sign = rate / (rate * rate + self.scales[k] * self.scales[k]).sqrt();
             out[k] = mean + half * sign;
