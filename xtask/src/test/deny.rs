@@ -55,6 +55,8 @@ fn program(workspace: &Workspace) -> Result<PathBuf, String> {
         "--version",
         VERSION,
     ]);
+    // Nobody looks into it with a debugger.
+    install.env("CARGO_PROFILE_DEV_DEBUG", "0");
     shell::run(install.arg("--root").arg(&tools).arg("--target-dir").arg(&build))?;
     // Hundreds of megabytes that nobody needs any more. That they stay behind is no failure.
     let _ = fs::remove_dir_all(&build);

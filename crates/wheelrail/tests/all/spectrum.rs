@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use wheelrail::track::spectrum::{Realization, Spectrum};
 
 /// Root mean square (cm) of a range of wavelengths, by Simpson's rule in the logarithm of the wavenumber.
@@ -66,6 +68,45 @@ fn analytic_variance_and_wavenumbers_of_a_realization() {
     let density = amplitude * amplitude / (2.0 * step);
     let expected = Spectrum::FraVertical(4).density(wavenumber).unwrap();
     assert!((density / expected - 1.0).abs() < 0.05, "{density} {expected}");
+}
+
+/// The sum of all terms, each with its own sine and cosine, far along a track, where blocks of terms were
+/// turned into each other many times; 403 terms fill no whole number of blocks.
+#[test]
+fn analytic_turned_blocks_are_the_sum_of_their_terms() {
+    let (low, high, count) = (TAU / 91.44, TAU / 1.5, 403);
+    let step = (high - low) / f64::from(count);
+    let spectrum = Spectrum::FraLateral(4);
+    let realization = Realization::new(spectrum, [1.5, 91.44], 403, 30.0, 9).unwrap();
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(9);
+    let terms: Vec<[f64; 3]> = (0..count)
+        .map(|k| {
+            let wavenumber = low + (f64::from(k) + 0.5) * step;
+            let amplitude = (2.0 * spectrum.density(wavenumber).unwrap() * step).sqrt();
+            let phase = TAU * ((random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64);
+            [wavenumber, amplitude, phase]
+        })
+        .collect();
+    for distance in [31.0, 123.4, 5_000.0] {
+        let found = realization.at(distance);
+        let expected = terms
+            .iter()
+            .fold([0.0; 3], |sum, [wavenumber, amplitude, phase]| {
+                let (sine, cosine) = (wavenumber * distance + phase).sin_cos();
+                [
+                    sum[0] + amplitude * cosine,
+                    sum[1] - amplitude * wavenumber * sine,
+                    sum[2] - amplitude * wavenumber * wavenumber * cosine,
+                ]
+            });
+        for (found, expected) in found.iter().zip(expected) {
+            // Arguments of 2e4 rad have 4e-12 of rounding.
+            assert!(
+                (found - expected).abs() < 1e-12,
+                "{distance} m: {found} {expected}"
+            );
+        }
+    }
 }
 
 #[test]
