@@ -243,8 +243,8 @@ impl ContactFace<Interface> {
         }
     }
 
-    /// Writes the deflections at the end of an implicit stage of this duration (s) in place of those from which
-    /// it begins.
+    /// Writes the deflections at the end of an implicit stage of this duration (s) in place of those from
+    /// which it begins.
     #[inline(always)]
     pub(crate) fn settle<M: FaceMotion>(
         &self,

@@ -323,8 +323,9 @@ impl<S: Real> Wrench<S> {
 }
 
 impl System {
-    /// Writes the deflections of all bristles at the end of an implicit stage of this duration (s) that begins
-    /// from those of `base`, at the positions and velocities of the last [`System::update_kinematics`].
+    /// Writes the deflections of all bristles at the end of an implicit stage of this duration (s) that
+    /// begins from those of `base`, at the positions and velocities of the last
+    /// [`System::update_kinematics`].
     pub(super) fn settle_bristles(&mut self, duration: f64, base: &[f64], x: &mut [f64]) {
         let layout = self.layout;
         let [_, _, base, _] = layout.split(base);
