@@ -10,7 +10,7 @@
 //! bristle relax: `ė = -K e/C`.
 //!
 //! **At the end of an implicit stage** of length h the deflection follows from velocity and friction limit
-//! alone ([`settled`], a return map): with the deflection `b` from which the stage begins,
+//! alone (a return map): with the deflection `b` from which the stage begins,
 //! `e = b + h v` if that sticks; else `e = (b + a μN d)/(1 + a K)`, `a = h/C`, `d` along
 //! `K b/(1 + a K) + C v`.
 //!
